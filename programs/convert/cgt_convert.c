@@ -186,7 +186,8 @@ static int read_frame(conversion *c, uint64_t number, cgt_trajectory_frame *fram
             origin[0], origin[1], origin[2]);
         return result;
     }
-    origin_tell(origin, "the spheres are");
+    origin_tell(origin, "the spheres are", c->error, sizeof c->error);
+    program_error("%s", c->error);
     cgt_trajectory_set_origin(c->from, origin);
     result = trajectory_status(c->from, cgt_trajectory_rewind(c->from), c->error, sizeof c->error);
     for (uint64_t k = 0; k < number && result > 0; k++)

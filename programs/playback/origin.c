@@ -6,9 +6,8 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
-
-#include "common/program.h"
 
 static const double steps = 32768.0;    /* of single precision across the picture: more than it has pixels */
 static const double round_steps = 64.0; /* across a radius: with fewer, equal spheres overlap unevenly */
@@ -62,9 +61,10 @@ int origin_of_camera(const double eye[3], const double target[3], double origin[
     return find_origin(target, sqrt(square), INFINITY, origin);
 }
 
-void origin_tell(const double origin[3], const char *what)
+void origin_tell(const double origin[3], const char *what, char *text, size_t size)
 {
-    program_error("%s far from 0, where single precision rounds coordinates visibly: --origin %.15g,%.15g,%.15g is "
-                  "subtracted from them in double",
-                  what, origin[0], origin[1], origin[2]);
+    snprintf(text, size,
+             "%s far from 0, where single precision rounds coordinates visibly: --origin %.15g,%.15g,%.15g is "
+             "subtracted from them in double",
+             what, origin[0], origin[1], origin[2]);
 }

@@ -17,7 +17,7 @@ int origin_of_bulk(const bulk *b, double origin[3]);
 /* The same for a camera: near its target, where places there are rounded to more than a 32768th of its distance. */
 int origin_of_camera(const double eye[3], const double target[3], double origin[3]);
 
-/* Tells about an origin that was found. what: "the spheres are". */
-void origin_tell(const double origin[3], const char *what);
+/* A sentence about an origin that was found. what: "the spheres are". */
+void origin_tell(const double origin[3], const char *what, char *text, size_t size);
 
 #endif

@@ -10,7 +10,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+
+#include "trajectory/trajectory_status.h"
 
 int render_fail(renderer *r)
 {
@@ -18,25 +19,21 @@ int render_fail(renderer *r)
     return -1;
 }
 
-static int fail_frame(const renderer *r, const char *action, const char *message, cgt_result result)
+int render_result(renderer *r, int result)
 {
-    program_error("%s: frame %" PRIu64 ": cannot %s: %s", r->options.input, r->frame ? r->frame->number : 0, action,
-                  *message ? message : cgt_get_result_string(result));
-    return -1;
+    const char *notice;
+    while ((notice = notices_take(&r->figure.notices)) != NULL)
+        program_error("%s", notice);
+    if (result)
+        program_error("%s", r->figure.message);
+    return result;
 }
 
-int render_fail_library(renderer *r, const char *action, cgt_result result)
+void renderer_print_camera(const renderer *r, const cgt_camera *camera, FILE *to)
 {
-    char message[512];
-    cgt_context_get_error_message(r->context, message, sizeof message);
-    return fail_frame(r, action, message, result);
-}
-
-int render_fail_picture(renderer *r, cgt_result result)
-{
-    char message[512];
-    cgt_picture_get_error_message(r->drawing, message, sizeof message);
-    return fail_frame(r, "trace", message, result);
+    char text[FIGURE_CAMERA_SIZE];
+    cgt_figure_name_camera(&r->figure, camera, text);
+    fputs(text, to);
 }
 
 static void on_log(void *user, cgt_log_level level, const char *message)
@@ -75,36 +72,14 @@ static int needs_count(const render_options *o)
     return needs;
 }
 
-/* Whether types or elements are to be named, which are those of all frames. */
-static int has_legend(const render_options *o)
-{
-    return (o->figure.picture.legend || o->figure.picture.bar) &&
-           (o->figure.by == COLORING_AUTO || o->figure.by == COLORING_TYPE || o->figure.by == COLORING_ELEMENT);
-}
-
-/* How many frames must be looked at before the first is rendered: all, the first, which tells the kind and whether
- * there are types, or none. */
-static uint64_t needs_frames(const render_options *o)
-{
-    const int measured = o->figure.by != COLORING_TYPE && o->figure.by != COLORING_PLAIN &&
-                         o->figure.by != COLORING_AUTO && o->figure.by != COLORING_ELEMENT;
-    if (!o->figure.has_camera || (measured && !o->figure.has_range) ||
-        (o->figure.floor.is_set && !o->figure.floor.has_place))
-        return o->output.survey;
-    if (has_legend(o))
-        return o->output.survey;
-    /* the up axis depends on the kind, and meshes of glass are as dark as they are large */
-    return o->figure.by == COLORING_AUTO || o->figure.by == COLORING_HEIGHT || o->figure.bounce.count;
-}
-
 /* The number of chosen frames, where it is known. A run that grows, or ends in an error, has no end before its readers
  * say so. */
 static int choose_frames(renderer *r)
 {
     const render_options *o = &r->options;
-    const uint64_t chosen = frame_range_count(&o->range, r->survey.total);
+    const uint64_t chosen = frame_range_count(&o->range, r->figure.survey.total);
     r->count = UINT64_MAX;
-    if (!r->has_survey || !r->survey.has_total)
+    if (!r->figure.has_survey || !r->figure.survey.has_total)
         return 0;
     if (chosen == 0) {
         program_error("%s: there is no frame%s", o->input,
@@ -131,88 +106,89 @@ static int choose_frames(renderer *r)
     return 0;
 }
 
-/* Looks at the first frame, which may be enough for automatic colours: 1 where it is. */
-static int is_decided(const renderer *r)
-{
-    const survey *s = &r->survey;
-    if (s->kind == CGT_TRAJECTORY_TRIANGLES && r->options.figure.bounce.count)
-        return 0;
-    return r->options.figure.by != COLORING_AUTO || s->kind == CGT_TRAJECTORY_TRIANGLES || s->has_element ||
-           s->type_max > s->type_min;
-}
-
-/* What the automatic camera asks of the survey, before the kind of the file is known. */
-static void begin_fit(renderer *r)
-{
-    for (int kind = 0; kind < 2; kind++) {
-        render_options o = r->options;
-        figure_options_axes(&o.figure, kind ? CGT_TRAJECTORY_TRIANGLES : CGT_TRAJECTORY_SPHERES);
-        cgt_camera_directions_set(&r->fit[kind], o.figure.view, o.figure.up, o.figure.fov,
-                                  (double)o.figure.width / (double)o.figure.height, (double)o.figure.orbit,
-                                  o.figure.picture.ortho);
-    }
-}
-
 /* What must be known of the input: a look at its first frame, and where that does not tell, at all. */
 static int survey_input(renderer *r)
 {
     render_options *o = &r->options;
-    survey_plan plan = {
-        .most = needs_frames(o), .count = needs_count(o), .quiet = o->quiet, .stop = r->stop, .context = r->context};
+    cgt_figure *const figure = &r->figure;
+    survey_plan plan = {.most = cgt_figure_needs_frames(figure, o->output.survey),
+                        .count = needs_count(o),
+                        .quiet = o->quiet,
+                        .stop = r->stop,
+                        .context = r->context};
     if (plan.most == 0 && !plan.count)
         return 0;
-    if (!o->figure.has_camera) {
-        begin_fit(r);
-        plan.fit = r->fit;
-    }
+    plan.fit = cgt_figure_begin_fit(figure);
     cgt_trajectory_set_follow(r->source.file, 0.0); /* the survey takes what is there */
-    r->has_survey = 1;
-    if (plan.most == 1 && survey_run(&r->source, &plan, &r->survey, r->error, sizeof r->error))
+    figure->has_survey = 1;
+    if (plan.most == 1 && survey_run(&r->source, &plan, &figure->survey, r->error, sizeof r->error))
         return render_fail(r);
-    if (plan.most == 1 && !is_decided(r))
+    if (plan.most == 1 && !cgt_figure_is_decided(figure))
         plan.most = o->output.survey;
-    if (plan.most != 1 && survey_run(&r->source, &plan, &r->survey, r->error, sizeof r->error))
+    if (plan.most != 1 && survey_run(&r->source, &plan, &figure->survey, r->error, sizeof r->error))
         return render_fail(r);
     cgt_trajectory_set_follow(r->source.file, o->reading.follow);
     return 0;
 }
 
+static int open_figure(renderer *r)
+{
+    cgt_figure *const figure = &r->figure;
+    figure->options = r->options.figure;
+    figure->source = r->options.input;
+    figure->context = r->context;
+    figure->stop = stop_flag_is_set;
+    figure->stop_user = r->stop;
+    figure->has_origin = r->options.reading.has_origin;
+    return render_result(r, cgt_figure_open(figure));
+}
+
 static int open_first(renderer *r)
 {
     render_options *o = &r->options;
-    if (o->figure.by == COLORING_VALUE &&
-        !(r->formula = expression_parse(o->figure.formula, r->error, sizeof r->error)))
-        return render_fail(r);
-    const int with_speed = o->figure.by == COLORING_AUTO || o->figure.by == COLORING_SPEED ||
-                           (r->formula && expression_uses(r->formula, "speed"));
-    o->reading.keep = needs_frames(o) > 0 || needs_count(o) || with_speed; /* which read the input twice */
+    cgt_trajectory_sort_series(o->inputs, o->input_count);
+    o->input = o->inputs[0];
+    if (open_figure(r))
+        return -1;
+    /* which read the input twice */
+    o->reading.keep =
+        cgt_figure_needs_frames(&r->figure, o->output.survey) > 0 || needs_count(o) || r->figure.sequence.tracker;
     o->reading.stop = stop_flag_is_set;
     o->reading.stop_user = r->stop;
     o->reading.threads = cgt_context_get_threads(r->context);
-    cgt_trajectory_sort_series(o->inputs, o->input_count);
-    o->input = o->inputs[0];
-    if (frame_source_open(&r->source, &r->sequence, o->inputs, o->input_count, &o->reading, r->error, sizeof r->error))
+    if (frame_source_open(&r->source, &r->figure.sequence, o->inputs, o->input_count, &o->reading, r->error,
+                          sizeof r->error))
         return render_fail(r);
-    if (with_speed && !(r->sequence.tracker = speed_create(r->context))) {
-        program_error("out of memory");
-        return -1;
-    }
-    r->sequence.wants_kinds = has_legend(o);
     r->source.keep.most = (size_t)o->memory_mib * (1024 * 1024);
-    if (frame_sequence_unwrap(&r->sequence,
-                              o->figure.whole    ? UNWRAP_WHOLE
-                              : o->figure.unwrap ? UNWRAP_IMAGES
-                                                 : UNWRAP_NOT,
-                              r->error, sizeof r->error) ||
-        frame_sequence_bind(&r->sequence, r->formula, r->error, sizeof r->error))
-        return render_fail(r);
-    if (render_scene_open(r))
-        return -1;
     if (frame_source_want_columns(&r->source, r->error, sizeof r->error))
         return render_fail(r);
-    cgt_trajectory_get_origin(r->source.file, r->origin);
-    render_choose_camera_origin(r);
+    r->figure.is_mesh = cgt_trajectory_get_mesh(r->source.file) != NULL;
+    cgt_trajectory_get_origin(r->source.file, r->figure.origin);
+    if (cgt_figure_choose_camera_origin(&r->figure))
+        cgt_trajectory_set_origin(r->source.file, r->figure.origin);
+    render_result(r, 0);
     return survey_input(r);
+}
+
+/* The mesh's first frame, which stays as long as the file is open. */
+static int open_mesh(renderer *r)
+{
+    const char *const path = r->options.mesh;
+    cgt_trajectory_frame mesh;
+    if (!path)
+        return 0;
+    const cgt_result opened = cgt_trajectory_open(path, NULL, &r->mesh);
+    if (trajectory_failed(r->mesh, opened, r->error, sizeof r->error))
+        return render_fail(r);
+    cgt_trajectory_set_origin(r->mesh, r->figure.origin);
+    const int read = trajectory_status(r->mesh, cgt_trajectory_read(r->mesh, &mesh), r->error, sizeof r->error);
+    if (read < 0)
+        return render_fail(r);
+    if (read == 0 || mesh.kind != CGT_TRAJECTORY_TRIANGLES) {
+        program_error("--mesh: %s has no triangles", path);
+        return -1;
+    }
+    return render_result(r, cgt_figure_set_mesh(&r->figure, &mesh));
 }
 
 static int open_report(renderer *r)
@@ -224,30 +200,30 @@ static int open_input(renderer *r)
 {
     if (make_folders(r) || open_report(r) || open_first(r))
         return -1;
-    if (render_choose_bulk_origin(r)) {
+    if (cgt_figure_choose_bulk_origin(&r->figure)) {
+        cgt_trajectory_set_origin(r->source.file, r->figure.origin);
+        render_result(r, 0);
         if (frame_source_rewind(&r->source, r->error, sizeof r->error))
             return render_fail(r);
         if (survey_input(r))
             return -1;
     }
-    if (render_move_cameras(r))
+    if (render_result(r, cgt_figure_move_cameras(&r->figure)))
         return -1;
-    if (r->has_survey)
-        figure_options_axes(&r->options.figure, r->survey.kind);
     return choose_frames(r);
-}
-
-static int choose_ambient(const renderer *r)
-{
-    const style_values *const s = style_get(r->options.figure.picture.style);
-    return cgt_trajectory_get_mesh(r->source.file) ? s->mesh_ambient : s->ambient;
 }
 
 static int prepare_pictures(renderer *r)
 {
     const render_options *o = &r->options;
-    if (o->figure.picture.ambient < 0)
-        r->options.figure.picture.ambient = choose_ambient(r);
+    if (o->figure.bounce.is_set && o->cell.mode) {
+        program_error("--bounces and --cell exclude each other");
+        return -1;
+    }
+    if (o->figure.bounce.is_set && o->stats) {
+        program_error("--stats counts the camera's rays, and with --bounces those are the fewest");
+        return -1;
+    }
     if (o->contact_sheet)
         r->sheet = contact_sheet_create(o->sheet_columns, o->sheet_rows, r->count, o->figure.width, o->figure.height);
     if (o->contact_sheet && !r->sheet) {
@@ -255,12 +231,6 @@ static int prepare_pictures(renderer *r)
                       o->figure.width, o->figure.height);
         return -1;
     }
-    camera_path_at(&r->path, 0.0, &r->camera);
-    render_choose_light(r);
-    if (r->options.figure.floor.is_set)
-        render_scene_floor(r);
-    if (r->options.figure.bounce.is_set && render_bounce_create(r))
-        return -1;
     return render_picture_setup(r);
 }
 
@@ -281,19 +251,13 @@ static int create_context(renderer *r)
     return result ? -1 : 0;
 }
 
-static int create_scene(renderer *r)
-{
-    const cgt_result result = cgt_scene_create(r->context, NULL, &r->scene);
-    return result ? render_fail_library(r, "make a scene", result) : 0;
-}
-
 int render_check_kind(void *user, const cgt_trajectory_frame *frame)
 {
     const renderer *const r = user;
     const render_options *o = &r->options;
     const int triangles = frame->kind == CGT_TRAJECTORY_TRIANGLES;
     const char *wrong = NULL;
-    if (triangles && r->coloring.by == COLORING_TYPE && !frame->type)
+    if (triangles && r->figure.coloring.by == COLORING_TYPE && !frame->type)
         wrong = "--color type: the triangles of this file have no types; id, speed, height or RRGGBB will do";
     else if (triangles && (o->reading.radius > 0.0f || o->reading.wrapped))
         wrong = "--radius and --wrapped are for spheres, and this is a file of triangles";
@@ -311,7 +275,7 @@ static uint64_t end_of_frames(const renderer *r)
 {
     const frame_range *range = &r->options.range;
     const uint64_t known = r->count > UINT64_MAX - r->begin ? UINT64_MAX : r->begin + r->count;
-    const int open_end = r->options.reading.follow > 0.0 || (r->has_survey && r->survey.is_cut);
+    const int open_end = r->options.reading.follow > 0.0 || (r->figure.has_survey && r->figure.survey.is_cut);
     const int last_part = r->options.output.part == r->options.output.parts;
     const uint64_t end = open_end && last_part ? UINT64_MAX : known;
     /* --last holds where nobody knows how many frames there are, too */
@@ -333,40 +297,32 @@ static int start_threads(renderer *r)
     writer->text_count = r->text_count;
     if (render_writer_start(writer))
         return -1;
-    if (r->options.figure.particles.trails &&
-        !(r->sequence.trails = trail_history_create(r->options.figure.particles.trails))) {
+    if (r->figure.options.particles.trails &&
+        !(r->figure.sequence.trails = trail_history_create(r->figure.options.particles.trails))) {
         program_error("out of memory for the trails");
         return -1;
     }
     r->source.looks_ahead = 1;
     reader->source = &r->source;
-    reader->coloring = r->coloring; /* its index goes along */
-    r->coloring.index = NULL;
+    reader->coloring = r->figure.coloring; /* its index goes along */
+    r->figure.coloring.index = NULL;
     reader->range = r->options.range;
     reader->next = r->begin;
     reader->end = end_of_frames(r);
     reader->stop = r->stop;
     reader->check = render_check_kind;
     reader->user = r;
-    reader->renderer = r;
+    reader->figure = &r->figure;
     return render_reader_start(reader);
-}
-
-/* Speeds that the colours do not show are not looked for. */
-static void drop_speeds(renderer *r)
-{
-    if (r->coloring.by == COLORING_SPEED || (r->formula && expression_uses(r->formula, "speed")))
-        return;
-    speed_release(r->sequence.tracker);
-    r->sequence.tracker = NULL;
 }
 
 int render_prepare(renderer *r)
 {
-    if (create_context(r) || open_input(r) || render_choose_colors(r))
+    cgt_figure *const figure = &r->figure;
+    if (create_context(r) || open_input(r) || render_result(r, cgt_figure_choose_colors(figure)) || open_mesh(r) ||
+        render_result(r, cgt_figure_choose_camera(figure)) || render_result(r, cgt_figure_settle(figure)))
         return -1;
-    drop_speeds(r);
-    return render_choose_camera(r) || create_scene(r) || prepare_pictures(r) ? -1 : 0;
+    return prepare_pictures(r);
 }
 
 int render_setup(renderer *r)
@@ -387,15 +343,10 @@ void render_close(renderer *r)
     render_reader_finish(&r->reader);
     render_cell_release(r->cell);
     render_picture_close(r);
-    render_bounce_release(r->bounce);
-    cgt_scene_release(r->scene);
+    coloring_free(&r->reader.coloring);
+    frame_source_close(&r->source);
+    cgt_figure_close(&r->figure);
+    cgt_trajectory_close(r->mesh);
     cgt_context_release(r->context);
     contact_sheet_release(r->sheet);
-    coloring_free(&r->reader.coloring);
-    coloring_free(&r->coloring);
-    render_scene_close(r);
-    frame_source_close(&r->source);
-    frame_sequence_close(&r->sequence);
-    expression_free(r->formula);
-    camera_keys_free(&r->options.figure.keys);
 }

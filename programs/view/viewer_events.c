@@ -81,7 +81,7 @@ static void press(viewer *v, const view_event *e)
         float place[3];
         if (place_under(v, e->x, e->y, place)) {
             memcpy(v->pivot, place, sizeof v->pivot);
-            view_camera_target(&v->camera, place, view_draw_options(v->draw)->figure.picture.ortho);
+            view_camera_target(&v->camera, place, view_draw_options(v->draw)->picture.ortho);
             viewer_say(v, "turns about the point under the pointer; f: about the middle");
             camera_moved(v);
         }
@@ -234,7 +234,7 @@ static void key(viewer *v, int key, int shift)
     case 'y':
     case 'z': look_along(v, key - 'x', shift); break;
     case 'o':
-        view_draw_options(v->draw)->figure.picture.ortho ^= 1;
+        view_draw_options(v->draw)->picture.ortho ^= 1;
         camera_moved(v);
         break;
     case 'l': viewer_open_list(v); break;

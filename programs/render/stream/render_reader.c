@@ -65,8 +65,8 @@ static int read_one(render_reader *r, uint64_t chosen)
         frame->speed_from = r->source->sequence->speed_from;
         frame->read_ms = (read - begin + program_seconds() - copy) * 1e3;
         frame->color_ms = (colored - read) * 1e3;
-        if (!failed && render_scene_prepare(r->renderer, &r->source->sequence->frame, frame->index, &frame->parts,
-                                            r->error, sizeof r->error))
+        if (!failed && cgt_figure_scene_prepare(r->figure, &r->source->sequence->frame, frame->index, &frame->parts,
+                                                r->error, sizeof r->error))
             return -1;
     }
     if (!failed)

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The geometries of a frame; see render_scene.h. */
-#include "render/render_scene.h"
+ * The geometries of a frame; see figure_scene.h. */
+#include "render/figure_scene.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -10,8 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/render_setup.h"
-#include "trajectory/trajectory_status.h"
+#include "render/figure_state.h"
 
 int bounce_rule_of(const bounce_options *o, const uint32_t *type, const uint8_t *element)
 {
@@ -28,16 +27,16 @@ int bounce_rule_of(const bounce_options *o, const uint32_t *type, const uint8_t 
 
 /* ---- Before the first frame --------------------------------------------------------------------------------- */
 
-static int parse_formula(renderer *r, const char *text, expression **formula)
+static int parse_formula(cgt_figure *figure, const char *text, expression **formula)
 {
     if (!text || !*text)
         return 0;
-    *formula = expression_parse(text, r->error, sizeof r->error);
-    return *formula ? frame_sequence_bind(&r->sequence, *formula, r->error, sizeof r->error) : -1;
+    *formula = expression_parse(text, figure->message, sizeof figure->message);
+    return *formula ? frame_sequence_bind(&figure->sequence, *formula, figure->message, sizeof figure->message) : -1;
 }
 
 /* Three formulas with commas between them, outside of parentheses. */
-static int parse_arrows(renderer *r, const char *text)
+static int parse_arrows(cgt_figure *figure, const char *text)
 {
     char part[3][256];
     int parts = 0, depth = 0;
@@ -56,30 +55,31 @@ static int parse_arrows(renderer *r, const char *text)
             break;
     }
     if (parts != 3) {
-        snprintf(r->error, sizeof r->error, "--arrows: \"%s\" is not velocity, force or three formulas", text);
+        snprintf(figure->message, sizeof figure->message, "--arrows: \"%s\" is not velocity, force or three formulas",
+                 text);
         return -1;
     }
     for (int i = 0; i < 3; i++)
-        if (parse_formula(r, *part[i] ? part[i] : "?", &r->parts.arrow[i]))
+        if (parse_formula(figure, *part[i] ? part[i] : "?", &figure->parts.arrow[i]))
             return -1;
     return 0;
 }
 
-int render_scene_open(renderer *r)
+int cgt_figure_scene_open(cgt_figure *figure)
 {
-    const particle_options *o = &r->options.figure.particles;
-    render_scene *s = &r->parts;
+    const particle_options *o = &figure->options.particles;
+    figure_scene *s = &figure->parts;
     particle_rules *rules = &s->rules;
-    if (parse_formula(r, o->show, &s->show) || parse_formula(r, o->radius, &s->radius) ||
-        (o->arrows && parse_arrows(r, o->arrows)))
-        return render_fail(r);
+    if (parse_formula(figure, o->show, &s->show) || parse_formula(figure, o->radius, &s->radius) ||
+        (o->arrows && parse_arrows(figure, o->arrows)))
+        return -1;
     rules->show = s->show;
     rules->radius = s->radius;
     rules->radius_scale = o->radius_scale;
     rules->radius_count = o->radius_count;
     memcpy(rules->radii, o->radii, sizeof rules->radii);
     memcpy(rules->images, o->images, sizeof rules->images);
-    r->sequence.rules = rules;
+    figure->sequence.rules = rules;
     s->selects = !particle_rules_are_empty(rules) || o->bonds || o->arrows || o->trails;
     return 0;
 }
@@ -94,53 +94,35 @@ static void extend(survey *s, const camera_directions *fit, const float p[3])
     cgt_camera_reach_add(&s->reach, fit, place, 0.0);
 }
 
-/* The mesh's first frame, which stays as long as the file is open. */
-static int read_mesh(renderer *r)
+int cgt_figure_set_mesh(cgt_figure *figure, const cgt_trajectory_frame *mesh)
 {
-    render_scene *s = &r->parts;
-    if (!r->options.mesh)
-        return 0;
-    const cgt_result opened = cgt_trajectory_open(r->options.mesh, NULL, &s->mesh_file);
-    if (trajectory_failed(s->mesh_file, opened, r->error, sizeof r->error))
-        return render_fail(r);
-    cgt_trajectory_set_origin(s->mesh_file, r->origin);
-    const int read =
-        trajectory_status(s->mesh_file, cgt_trajectory_read(s->mesh_file, &s->mesh), r->error, sizeof r->error);
-    if (read < 0)
-        return render_fail(r);
-    if (read == 0 || s->mesh.kind != CGT_TRAJECTORY_TRIANGLES) {
-        program_error("--mesh: %s has no triangles", r->options.mesh);
-        return -1;
-    }
-    s->mesh_entries = malloc(((size_t)s->mesh.triangles + 1) * sizeof *s->mesh_entries);
-    if (!s->mesh_entries) {
-        program_error("out of memory for the mesh");
-        return -1;
-    }
-    for (uint32_t i = 0; i < s->mesh.triangles; i++)
+    figure_scene *s = &figure->parts;
+    s->mesh = *mesh;
+    s->mesh_entries = malloc(((size_t)mesh->triangles + 1) * sizeof *s->mesh_entries);
+    if (!s->mesh_entries)
+        return cgt_figure_fail(figure, "out of memory for the mesh");
+    for (uint32_t i = 0; i < mesh->triangles; i++)
         s->mesh_entries[i] = FIGURE_MESH;
     return 0;
 }
 
 /* The camera shows box, images and mesh, too. */
-int render_scene_bound(renderer *r)
+void cgt_figure_scene_bound(cgt_figure *figure)
 {
-    const render_scene *parts = &r->parts;
-    survey *s = &r->survey;
-    if (read_mesh(r))
-        return -1;
-    if (!r->has_survey)
-        return 0;
-    const camera_directions *const fit = renderer_fit(r);
+    const figure_scene *parts = &figure->parts;
+    survey *s = &figure->survey;
+    if (!figure->has_survey)
+        return;
+    const camera_directions *const fit = figure_fit(figure);
     for (uint32_t k = 0; k < fit->count; k++) {
         s->reach.along[k] += fmax(s->move_reach.along[k], 0.0);
-        if (r->options.figure.particles.box)
+        if (figure->options.particles.box)
             s->reach.along[k] = fmax(s->reach.along[k], s->box_reach.along[k]);
     }
     for (int c = 0; c < 3; c++) {
         s->bounds_min[c] = (float)((double)s->bounds_min[c] + s->move_min[c]);
         s->bounds_max[c] = (float)((double)s->bounds_max[c] + s->move_max[c]);
-        if (r->options.figure.particles.box && s->box_min[c] <= s->box_max[c]) {
+        if (figure->options.particles.box && s->box_min[c] <= s->box_max[c]) {
             s->bounds_min[c] = fminf(s->bounds_min[c], (float)s->box_min[c]);
             s->bounds_max[c] = fmaxf(s->bounds_max[c], (float)s->box_max[c]);
         }
@@ -151,42 +133,41 @@ int render_scene_bound(renderer *r)
             extend(s, fit, p);
     }
     s->drawable += parts->mesh.triangles;
-    return 0;
 }
 
-static void set_color(renderer *r, uint32_t entry, const uint8_t srgb[3])
+static void set_color(cgt_figure *figure, uint32_t entry, const uint8_t srgb[3])
 {
     for (int c = 0; c < 3; c++)
-        r->parts.palette[entry][c] = cgt_srgb_to_linear((float)srgb[c] / 255.0f);
+        figure->parts.palette[entry][c] = cgt_srgb_to_linear((float)srgb[c] / 255.0f);
 }
 
-void render_scene_color(renderer *r)
+void cgt_figure_scene_color(cgt_figure *figure)
 {
-    const particle_options *o = &r->options.figure.particles;
-    const uint8_t *back = r->options.figure.picture.background;
+    const particle_options *o = &figure->options.particles;
+    const uint8_t *back = figure->options.picture.background;
     const uint8_t edge = back[0] + back[1] + back[2] > 384 ? 70 : 190; /* dark on light, light on dark */
     for (uint32_t i = 0; i < o->color_count; i++)
-        if (r->coloring.by == (o->colors[i].is_element ? COLORING_ELEMENT : COLORING_TYPE))
-            coloring_set_kind(&r->coloring, o->colors[i].kind, o->colors[i].value);
+        if (figure->coloring.by == (o->colors[i].is_element ? COLORING_ELEMENT : COLORING_TYPE))
+            coloring_set_kind(&figure->coloring, o->colors[i].kind, o->colors[i].value);
         else
-            program_error("--type-color: the colours are not those of %s: see --color",
-                          o->colors[i].is_element ? "elements" : "types");
-    memcpy(r->parts.palette, r->coloring.palette, sizeof r->coloring.palette);
-    set_color(r, FIGURE_BOX, (const uint8_t[]){edge, edge, edge});
-    set_color(r, FIGURE_BOND, o->bond_color);
-    set_color(r, FIGURE_ARROW, o->arrow_color);
-    set_color(r, FIGURE_MESH, o->mesh_color);
-    set_color(r, FIGURE_TRAIL, o->trail_color);
-    const floor_options *floor = &r->options.figure.floor;
+            notices_add(&figure->notices, "--type-color: the colours are not those of %s: see --color",
+                        o->colors[i].is_element ? "elements" : "types");
+    memcpy(figure->parts.palette, figure->coloring.palette, sizeof figure->coloring.palette);
+    set_color(figure, FIGURE_BOX, (const uint8_t[]){edge, edge, edge});
+    set_color(figure, FIGURE_BOND, o->bond_color);
+    set_color(figure, FIGURE_ARROW, o->arrow_color);
+    set_color(figure, FIGURE_MESH, o->mesh_color);
+    set_color(figure, FIGURE_TRAIL, o->trail_color);
+    const floor_options *floor = &figure->options.floor;
     const uint8_t grey = back[0] + back[1] + back[2] > 384 ? 240 : 120;
-    set_color(r, FIGURE_FLOOR, floor->has_color ? floor->color : (const uint8_t[]){grey, grey, grey});
+    set_color(figure, FIGURE_FLOOR, floor->has_color ? floor->color : (const uint8_t[]){grey, grey, grey});
 }
 
-void render_scene_floor(renderer *r)
+void cgt_figure_scene_floor(cgt_figure *figure)
 {
-    floor_options *const o = &r->options.figure.floor;
-    const survey *s = &r->survey;
-    const float *up = r->path.start.up;
+    floor_options *const o = &figure->options.floor;
+    const survey *s = &figure->survey;
+    const float *up = figure->path.start.up;
     float middle[3], size = 0.0f;
     int axis = 0;
     for (int c = 0; c < 3; c++) {
@@ -198,16 +179,16 @@ void render_scene_floor(renderer *r)
     axis = o->axis ? (int)(o->axis - 1) % 3 : axis;
     middle[axis] = is_down ? s->bounds_max[axis] : s->bounds_min[axis];
     for (int c = 0; c < 3 && o->has_place; c++)
-        middle[c] = (float)(o->place[c] - r->origin[c]);
+        middle[c] = (float)(o->place[c] - figure->origin[c]);
     size = o->has_place ? (float)o->place[3] : size;
     if (o->has_height)
-        middle[axis] = (float)((is_down ? -o->height : o->height) - r->origin[axis]);
+        middle[axis] = (float)((is_down ? -o->height : o->height) - figure->origin[axis]);
     /* as another command line would have to say it */
     o->axis = (uint32_t)axis + (is_down ? 4 : 1);
     for (int c = 0; c < 3; c++)
-        o->place[c] = (double)middle[c] + r->origin[c];
+        o->place[c] = (double)middle[c] + figure->origin[c];
     o->place[3] = (double)size;
-    floor_make(&r->parts.floor, middle, axis, size, r->options.figure.bounce.is_set && !o->has_color);
+    floor_make(&figure->parts.floor, middle, axis, size, figure->options.bounce.is_set && !o->has_color);
 }
 
 /* ---- Each frame --------------------------------------------------------------------------------------------- */
@@ -223,21 +204,21 @@ static double box_diagonal(const cgt_trajectory_frame *f)
 }
 
 /* Lines are so thick that rays of all of their pixels meet them. */
-static void set_thinnest(const renderer *r, const cgt_trajectory_frame *f, sticks *t)
+static void set_thinnest(const cgt_figure *figure, const cgt_trajectory_frame *f, sticks *t)
 {
     const double facets = 1.1; /* a cylinder of few sides is thinner between its edges */
     const double pi = 3.14159265358979323846;
-    const render_options *o = &r->options;
+    const figure_options *o = &figure->options;
     cgt_camera camera;
     double square = 0.0;
-    render_camera_at(r, f->number, &camera);
+    cgt_figure_camera_at(figure, f->number, &camera);
     for (int c = 0; c < 3; c++) {
         t->eye[c] = (double)camera.eye[c];
         square += ((double)camera.target[c] - t->eye[c]) * ((double)camera.target[c] - t->eye[c]);
     }
-    t->spread = facets * tan((double)camera.fov * pi / 360.0) / (double)(o->figure.height * o->figure.samples);
-    t->least = o->figure.picture.ortho ? t->spread * sqrt(square) : 0.0;
-    t->spread = o->figure.picture.ortho ? 0.0 : t->spread;
+    t->spread = facets * tan((double)camera.fov * pi / 360.0) / (double)(o->height * o->samples);
+    t->least = o->picture.ortho ? t->spread * sqrt(square) : 0.0;
+    t->spread = o->picture.ortho ? 0.0 : t->spread;
 }
 
 /* Fewer sides where there are many arrows. */
@@ -248,16 +229,16 @@ static uint32_t choose_sides(const particle_options *o, const particles *p)
 }
 
 /* The edges of the box and the trails, which are lines, after all else. */
-static int make_lines(const renderer *r, const cgt_trajectory_frame *f, frame_parts *parts, char *error,
+static int make_lines(const cgt_figure *figure, const cgt_trajectory_frame *f, frame_parts *parts, char *error,
                       size_t error_size)
 {
-    const particle_options *o = &r->options.figure.particles;
+    const particle_options *o = &figure->options.particles;
     const float radius = o->box_radius > 0.0f ? o->box_radius : 0.0015f * (float)box_diagonal(f);
-    const trail_rules trails = {r->sequence.trails, o->trail_radius, o->has_trail_color ? FIGURE_TRAIL : -1};
+    const trail_rules trails = {figure->sequence.trails, o->trail_radius, o->has_trail_color ? FIGURE_TRAIL : -1};
     parts->bonds = parts->sticks.count;
     parts->arrows = parts->sticks.triangles;
     if (o->box && figures_add_box(&parts->sticks, f, o->images, radius, FIGURE_BOX)) {
-        snprintf(error, error_size, "%s: frame %" PRIu64 ": --box: the file has no box", r->options.input, f->number);
+        snprintf(error, error_size, "%s: frame %" PRIu64 ": --box: the file has no box", figure->source, f->number);
         return -1;
     }
     return o->trails ? figures_add_trails(&parts->sticks, &trails, f, &parts->particles, error, error_size) : 0;
@@ -276,11 +257,11 @@ static float figure_unit(const cgt_trajectory_frame *f, const particles *p)
     return isfinite(smallest) ? 2.0f * smallest : 1.0f;
 }
 
-static int make_figures(const renderer *r, const cgt_trajectory_frame *f, frame_parts *parts, char *error,
+static int make_figures(const cgt_figure *figure, const cgt_trajectory_frame *f, frame_parts *parts, char *error,
                         size_t error_size)
 {
-    const particle_options *o = &r->options.figure.particles;
-    const render_scene *s = &r->parts;
+    const particle_options *o = &figure->options.particles;
+    const figure_scene *s = &figure->parts;
     const expression *const vector[3] = {s->arrow[0], s->arrow[1], s->arrow[2]};
     const int asks = (o->bonds && !(o->bond_radius > 0.0f)) || (o->arrows && !(o->arrow_radius > 0.0f));
     const float unit = asks ? figure_unit(f, &parts->particles) : 0.0f;
@@ -289,29 +270,29 @@ static int make_figures(const renderer *r, const cgt_trajectory_frame *f, frame_
                               .entry = o->has_bond_color ? FIGURE_BOND : -1,
                               .images = {o->images[0], o->images[1], o->images[2]}};
     sticks_clear(&parts->sticks, choose_sides(o, &parts->particles));
-    set_thinnest(r, f, &parts->sticks);
+    set_thinnest(figure, f, &parts->sticks);
     if (o->bonds && figures_add_bonds(&parts->sticks, &bonds, f, &parts->particles, error, error_size))
         return -1;
     if (o->arrows)
         figures_add_arrows(&parts->sticks, vector, o->arrow_scale,
                            o->arrow_radius > 0.0f ? o->arrow_radius : 0.1f * unit, &parts->particles,
                            o->has_arrow_color ? FIGURE_ARROW : -1);
-    if (make_lines(r, f, parts, error, error_size))
+    if (make_lines(figure, f, parts, error, error_size))
         return -1;
     if (parts->sticks.failed) {
         snprintf(error, error_size, "%s: frame %" PRIu64 ": out of memory for bonds, arrows, trails or box",
-                 r->options.input, f->number);
+                 figure->source, f->number);
         return -1;
     }
     return 0;
 }
 
 /* The material of each sphere that is drawn. */
-static int find_rules(const renderer *r, const cgt_trajectory_frame *f, frame_parts *parts, char *error,
+static int find_rules(const cgt_figure *figure, const cgt_trajectory_frame *f, frame_parts *parts, char *error,
                       size_t error_size)
 {
-    const bounce_options *o = &r->options.figure.bounce;
-    const uint32_t count = r->parts.selects ? parts->particles.count : f->count;
+    const bounce_options *o = &figure->options.bounce;
+    const uint32_t count = figure->parts.selects ? parts->particles.count : f->count;
     if (o->count == 0 || f->kind == CGT_TRAJECTORY_TRIANGLES)
         return 0;
     if (!parts->rules || count > parts->rule_room) {
@@ -324,26 +305,27 @@ static int find_rules(const renderer *r, const cgt_trajectory_frame *f, frame_pa
         return -1;
     }
     for (uint32_t i = 0; i < count; i++) {
-        const uint32_t k = r->parts.selects ? parts->particles.source[i] : i;
+        const uint32_t k = figure->parts.selects ? parts->particles.source[i] : i;
         parts->rules[i] = (int8_t)bounce_rule_of(o, f->type ? f->type + k : NULL, f->element ? f->element + k : NULL);
     }
     return 0;
 }
 
-int render_scene_prepare(const renderer *r, const cgt_trajectory_frame *f, const uint16_t *index, frame_parts *parts,
-                         char *error, size_t error_size)
+int cgt_figure_scene_prepare(const cgt_figure *figure, const cgt_trajectory_frame *f, const uint16_t *index,
+                             frame_parts *parts, char *error, size_t error_size)
 {
-    const render_scene *s = &r->parts;
+    const figure_scene *s = &figure->parts;
     if (f->kind == CGT_TRAJECTORY_TRIANGLES && s->selects) {
         snprintf(error, error_size,
                  "%s: --show, --hide, --slice, --cut, radii, bonds, arrows, trails and images are for spheres, and "
                  "this is a file of triangles",
-                 r->options.input);
+                 figure->source);
         return -1;
     }
     if (s->selects && particles_select(&parts->particles, &s->rules, f, index, error, error_size))
         return -1;
-    return find_rules(r, f, parts, error, error_size) || make_figures(r, f, parts, error, error_size) ? -1 : 0;
+    return find_rules(figure, f, parts, error, error_size) || make_figures(figure, f, parts, error, error_size) ? -1
+                                                                                                                : 0;
 }
 
 void frame_parts_free(frame_parts *parts)
@@ -354,40 +336,41 @@ void frame_parts_free(frame_parts *parts)
 }
 
 /* The scene uses the reader's array: x, y, z, radius of each sphere; or the copy of those that are drawn. */
-static cgt_result set_spheres(renderer *r)
+static cgt_result set_spheres(cgt_figure *figure)
 {
-    const float *xyzr = r->parts.selects ? r->parts.frame->particles.xyzr : r->frame->xyzr;
-    const uint32_t count = r->parts.selects ? r->parts.frame->particles.count : r->frame->count;
+    const float *xyzr = figure->parts.selects ? figure->parts.frame->particles.xyzr : figure->frame->xyzr;
+    const uint32_t count = figure->parts.selects ? figure->parts.frame->particles.count : figure->frame->count;
     const cgt_spheres spheres = {.count = count,
                                  .centers = cgt_floats(xyzr, 4 * sizeof(float)),
                                  .radii = cgt_floats(count ? xyzr + 3 : NULL, 4 * sizeof(float))};
-    if (!r->has_geometry)
-        r->geometry = CGT_INVALID_ID;
-    return cgt_scene_set_spheres(r->scene, &r->geometry, &spheres);
+    if (!figure->has_geometry)
+        figure->geometry = CGT_INVALID_ID;
+    return cgt_scene_set_spheres(figure->scene, &figure->geometry, &spheres);
 }
 
-static cgt_result set_triangles(renderer *r, const cgt_triangles *triangles, int *is_there, uint32_t *geometry)
+static cgt_result set_triangles(cgt_figure *figure, const cgt_triangles *triangles, int *is_there, uint32_t *geometry)
 {
     if (!*is_there)
         *geometry = CGT_INVALID_ID;
-    const cgt_result result = cgt_scene_set_triangles(r->scene, geometry, triangles);
+    const cgt_result result = cgt_scene_set_triangles(figure->scene, geometry, triangles);
     *is_there |= result == CGT_OK;
     return result;
 }
 
-static cgt_result set_mesh(renderer *r, const cgt_trajectory_frame *f, uint32_t mask, int *is_there, uint32_t *geometry)
+static cgt_result set_mesh(cgt_figure *figure, const cgt_trajectory_frame *f, uint32_t mask, int *is_there,
+                           uint32_t *geometry)
 {
     const cgt_triangles triangles = {.count = f->triangles,
                                      .indices = cgt_uint32s(f->index, 0),
                                      .vertex_count = f->count,
                                      .vertices = cgt_floats(f->position, 0),
                                      .mask = mask};
-    return set_triangles(r, &triangles, is_there, geometry);
+    return set_triangles(figure, &triangles, is_there, geometry);
 }
 
-static cgt_result set_sticks(renderer *r)
+static cgt_result set_sticks(cgt_figure *figure)
 {
-    render_scene *s = &r->parts;
+    figure_scene *s = &figure->parts;
     const sticks *t = &s->frame->sticks;
     const cgt_capsules capsules = {.count = t->count,
                                    .vertex_count = 2 * t->count,
@@ -401,62 +384,64 @@ static cgt_result set_sticks(renderer *r)
     if (!s->has_sticks)
         s->sticks_geometry = CGT_INVALID_ID;
     if (s->has_sticks || t->count)
-        result = cgt_scene_set_capsules(r->scene, &s->sticks_geometry, &capsules);
+        result = cgt_scene_set_capsules(figure->scene, &s->sticks_geometry, &capsules);
     s->has_sticks |= t->count && result == CGT_OK;
     if (result == CGT_OK && (s->has_facets || t->triangles))
-        result = set_triangles(r, &facets, &s->has_facets, &s->facets_geometry);
+        result = set_triangles(figure, &facets, &s->has_facets, &s->facets_geometry);
     return result;
 }
 
-int render_scene_set(renderer *r, const frame_parts *parts)
+int cgt_figure_scene_set(cgt_figure *figure, const frame_parts *parts)
 {
-    render_scene *s = &r->parts;
-    const cgt_trajectory_frame *f = r->frame;
+    figure_scene *s = &figure->parts;
+    const cgt_trajectory_frame *f = figure->frame;
     s->frame = parts;
-    if (r->bounce)
-        return render_bounce_set(r, parts);
-    cgt_result result =
-        f->kind == CGT_TRAJECTORY_TRIANGLES ? set_mesh(r, f, 0, &r->has_geometry, &r->geometry) : set_spheres(r);
+    if (figure->bounce)
+        return cgt_figure_bounce_set(figure, parts);
+    cgt_result result = f->kind == CGT_TRAJECTORY_TRIANGLES
+                            ? set_mesh(figure, f, 0, &figure->has_geometry, &figure->geometry)
+                            : set_spheres(figure);
     if (result)
-        return render_fail_library(r, f->kind == CGT_TRAJECTORY_TRIANGLES ? "take the triangles" : "take the spheres",
-                                   result);
-    r->has_geometry = 1;
-    if (s->mesh_file && !s->has_mesh)
-        result = set_mesh(r, &s->mesh, MASK_MESH, &s->has_mesh, &s->mesh_geometry);
+        return cgt_figure_fail_library(
+            figure, f->kind == CGT_TRAJECTORY_TRIANGLES ? "take the triangles" : "take the spheres", result);
+    figure->has_geometry = 1;
+    if (s->mesh_entries && !s->has_mesh)
+        result = set_mesh(figure, &s->mesh, MASK_MESH, &s->has_mesh, &s->mesh_geometry);
     if (!result && s->floor.triangles.count && !s->has_floor)
-        result = set_triangles(r, &s->floor.triangles, &s->has_floor, &s->floor_geometry);
+        result = set_triangles(figure, &s->floor.triangles, &s->has_floor, &s->floor_geometry);
     if (!result)
-        result = set_sticks(r);
-    return result ? render_fail_library(r, "take figures or mesh", result) : 0;
+        result = set_sticks(figure);
+    return result ? cgt_figure_fail_library(figure, "take figures or mesh", result) : 0;
 }
 
-int render_scene_find(const renderer *r, uint32_t geometry, uint32_t primitive, uint32_t *element)
+int cgt_figure_scene_find(const cgt_figure *figure, uint32_t geometry, uint32_t primitive, uint32_t *element)
 {
-    const render_scene *const s = &r->parts;
-    const int is_file = r->bounce ? render_bounce_find(r, geometry, &primitive) : geometry == r->geometry;
+    const figure_scene *const s = &figure->parts;
+    const int is_file =
+        figure->bounce ? cgt_figure_bounce_find(figure, geometry, &primitive) : geometry == figure->geometry;
     *element = is_file && s->selects ? s->frame->particles.source[primitive] : primitive;
     return is_file;
 }
 
 /* ---- Looks -------------------------------------------------------------------------------------------------- */
 
-int render_scene_has_figures(const renderer *r)
+int cgt_figure_scene_has_figures(const cgt_figure *figure)
 {
-    const particle_options *o = &r->options.figure.particles;
-    return o->box || o->bonds || o->arrows || r->options.mesh || o->trails;
+    const particle_options *o = &figure->options.particles;
+    return o->box || o->bonds || o->arrows || figure->parts.mesh_entries || o->trails;
 }
 
-uint32_t render_scene_looks(const renderer *r, cgt_look *looks)
+uint32_t cgt_figure_scene_looks(const cgt_figure *figure, cgt_look *looks)
 {
-    const render_scene *s = &r->parts;
-    const cgt_trajectory_frame *f = r->frame;
+    const figure_scene *s = &figure->parts;
+    const cgt_trajectory_frame *f = figure->frame;
     const int triangles = f->kind == CGT_TRAJECTORY_TRIANGLES;
     const cgt_look plain = {.palette = s->palette[0], .palette_steps = COLORING_STEPS};
-    cgt_look *file = &looks[r->geometry];
+    cgt_look *file = &looks[figure->geometry];
     *file = plain;
-    file->index = s->selects ? s->frame->particles.index : r->coloring.index;
+    file->index = s->selects ? s->frame->particles.index : figure->coloring.index;
     file->ids = s->selects ? s->frame->particles.source : NULL;
-    file->per_vertex = triangles && r->coloring.per_vertex;
+    file->per_vertex = triangles && figure->coloring.per_vertex;
     file->vertex_normals = triangles ? f->vertex_normal : NULL;
     if (s->has_sticks) {
         cgt_look *stick = &looks[s->sticks_geometry];
@@ -488,13 +473,12 @@ uint32_t render_scene_looks(const renderer *r, cgt_look *looks)
     return 1 + (uint32_t)s->has_sticks + (uint32_t)s->has_facets + (uint32_t)s->has_mesh + (uint32_t)s->has_floor;
 }
 
-void render_scene_close(renderer *r)
+void cgt_figure_scene_close(cgt_figure *figure)
 {
-    render_scene *s = &r->parts;
+    figure_scene *s = &figure->parts;
     expression_free(s->show);
     expression_free(s->radius);
     for (int i = 0; i < 3; i++)
         expression_free(s->arrow[i]);
     free(s->mesh_entries);
-    cgt_trajectory_close(s->mesh_file);
 }

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Mirrors and glass; see render_setup.h.*/
-#include "render/render_setup.h"
+ * Mirrors and glass; see figure_state.h.*/
+#include "render/figure_state.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,7 +19,7 @@ typedef struct sphere_list {
     uint32_t *place; /* among all that is drawn of the file */
 } sphere_list;
 
-struct render_bounce {
+struct figure_bounce {
     cgt_material material[MOST_MATERIALS]; /* 0 is matt */
     uint32_t materials;
     uint8_t material_of[BOUNCE_MATERIALS][COLORING_ENTRIES]; /* by rule and colour; 0: none yet */
@@ -29,8 +29,8 @@ struct render_bounce {
     int per_vertex;
     uint32_t *body;     /* of the triangles, where they are glass */
     uint32_t bodies_of; /* triangles for which that was made */
-    uint32_t looks, geometries, id[RENDER_LOOKS];
-    cgt_look look[RENDER_LOOKS];
+    uint32_t looks, geometries, id[FIGURE_LOOKS];
+    cgt_look look[FIGURE_LOOKS];
     float floor_color[2 * FLOOR_CHEQUERS * FLOOR_CHEQUERS][3];
     const float (*palette)[3];
 };
@@ -38,7 +38,7 @@ struct render_bounce {
 /* ---- Materials ---------------------------------------------------------------------------------------------- */
 
 /* The material of a rule in a colour. Glass of radius r is as dark as its colour along r. */
-static uint8_t material_of(render_bounce *b, const bounce_options *o, int rule, uint32_t entry, float radius)
+static uint8_t material_of(figure_bounce *b, const bounce_options *o, int rule, uint32_t entry, float radius)
 {
     if (rule < 0 || o->materials[rule].material == CGT_MATERIAL_MATTE)
         return 0;
@@ -82,16 +82,16 @@ static int has_room(sphere_list *list)
 }
 
 /* Divides the frame's spheres. */
-static int divide(renderer *r, const frame_parts *parts)
+static int divide(cgt_figure *figure, const frame_parts *parts)
 {
-    render_bounce *b = r->bounce;
-    const bounce_options *o = &r->options.figure.bounce;
-    const int selects = r->parts.selects;
-    const uint32_t count = selects ? parts->particles.count : r->frame->count;
-    const float *xyzr = selects ? parts->particles.xyzr : r->frame->xyzr;
+    figure_bounce *b = figure->bounce;
+    const bounce_options *o = &figure->options.bounce;
+    const int selects = figure->parts.selects;
+    const uint32_t count = selects ? parts->particles.count : figure->frame->count;
+    const float *xyzr = selects ? parts->particles.xyzr : figure->frame->xyzr;
     b->list[OPAQUE].count = b->list[GLASS].count = 0;
     for (uint32_t i = 0; i < count; i++) {
-        const uint16_t entry = selects ? parts->particles.index[i] : r->coloring.index[i];
+        const uint16_t entry = selects ? parts->particles.index[i] : figure->coloring.index[i];
         const int rule = parts->rules ? parts->rules[i] : -1;
         sphere_list *list = &b->list[rule >= 0 && o->materials[rule].material == CGT_MATERIAL_GLASS ? GLASS : OPAQUE];
         if (!has_room(list))
@@ -105,24 +105,24 @@ static int divide(renderer *r, const frame_parts *parts)
 }
 
 /* A geometry more, or its update: in the same order in each frame. */
-static cgt_result set_geometry(renderer *r, const cgt_look *look, const cgt_spheres *spheres,
+static cgt_result set_geometry(cgt_figure *figure, const cgt_look *look, const cgt_spheres *spheres,
                                const cgt_triangles *triangles)
 {
-    render_bounce *b = r->bounce;
+    figure_bounce *b = figure->bounce;
     const uint32_t k = b->looks++;
     b->look[k] = *look;
     b->look[k].palette = b->palette[0];
     if (k >= b->geometries)
         b->id[k] = CGT_INVALID_ID;
-    const cgt_result result = spheres ? cgt_scene_set_spheres(r->scene, &b->id[k], spheres)
-                                      : cgt_scene_set_triangles(r->scene, &b->id[k], triangles);
+    const cgt_result result = spheres ? cgt_scene_set_spheres(figure->scene, &b->id[k], spheres)
+                                      : cgt_scene_set_triangles(figure->scene, &b->id[k], triangles);
     b->geometries += k >= b->geometries && result == CGT_OK;
     return result;
 }
 
-static cgt_result set_spheres(renderer *r)
+static cgt_result set_spheres(cgt_figure *figure)
 {
-    render_bounce *b = r->bounce;
+    figure_bounce *b = figure->bounce;
     cgt_result result = CGT_OK;
     for (int k = 0; k < KINDS && result == CGT_OK; k++) {
         const sphere_list *list = &b->list[k];
@@ -130,70 +130,68 @@ static cgt_result set_spheres(renderer *r)
                                      .centers = cgt_floats(list->xyzr, 4 * sizeof(float)),
                                      .radii = cgt_floats(list->count ? list->xyzr + 3 : NULL, 4 * sizeof(float)),
                                      .mask = 1u << k};
-        result = set_geometry(r, &(cgt_look){.materials = list->material, .index = list->entry}, &spheres, NULL);
+        result = set_geometry(figure, &(cgt_look){.materials = list->material, .index = list->entry}, &spheres, NULL);
     }
     return result;
 }
 
 /* Bodies of a mesh of glass: found again where the number of its triangles changes. */
-static int find_bodies(renderer *r)
+static int find_bodies(cgt_figure *figure)
 {
-    render_bounce *b = r->bounce;
-    const cgt_trajectory_frame *f = r->frame;
+    figure_bounce *b = figure->bounce;
+    const cgt_trajectory_frame *f = figure->frame;
     uint32_t bodies, wrong[3];
     if (b->body && b->bodies_of == f->triangles)
         return 0;
     free(b->body);
     b->body = malloc(((size_t)f->triangles + 1) * sizeof *b->body);
     b->bodies_of = f->triangles;
-    if (!b->body) {
-        program_error("out of memory for the bodies of %u triangles", f->triangles);
-        return -1;
-    }
+    if (!b->body)
+        return cgt_figure_fail(figure, "out of memory for the bodies of %u triangles", f->triangles);
     const cgt_result result = cgt_find_bodies(f->index, f->triangles, f->position, f->count, b->body, &bodies, wrong);
     if (result == CGT_ERROR_INVALID_ARGUMENT) /* the reader has checked the indices */
-        program_error("%s: glass must be closed: the mesh is not closed: the edge of triangle %u from vertex %u to %u "
-                      "has no other side, or one that is turned inside out",
-                      r->options.input, wrong[0], wrong[1], wrong[2]);
-    else if (result != CGT_OK)
-        program_error("out of memory for the bodies of %u triangles", f->triangles);
-    return result == CGT_OK ? 0 : -1;
+        return cgt_figure_fail(
+            figure,
+            "%s: glass must be closed: the mesh is not closed: the edge of triangle %u from vertex %u to %u "
+            "has no other side, or one that is turned inside out",
+            figure->source, wrong[0], wrong[1], wrong[2]);
+    return result ? cgt_figure_fail(figure, "out of memory for the bodies of %u triangles", f->triangles) : 0;
 }
 
-static int set_triangles(renderer *r)
+static int set_triangles(cgt_figure *figure)
 {
-    render_bounce *b = r->bounce;
-    const cgt_trajectory_frame *f = r->frame;
-    const bounce_options *o = &r->options.figure.bounce;
+    figure_bounce *b = figure->bounce;
+    const cgt_trajectory_frame *f = figure->frame;
+    const bounce_options *o = &figure->options.bounce;
     const int rule = bounce_rule_of(o, NULL, NULL);
     const int glass = rule >= 0 && o->materials[rule].material == CGT_MATERIAL_GLASS;
-    if (glass && find_bodies(r))
+    if (glass && find_bodies(figure))
         return -1;
     float size = 0.0f;
-    for (int c = 0; c < 3 && r->has_survey; c++)
-        size = fmaxf(size, r->survey.bounds_max[c] - r->survey.bounds_min[c]);
-    b->triangle_entry = r->coloring.index;
-    b->per_vertex = r->coloring.per_vertex;
+    for (int c = 0; c < 3 && figure->has_survey; c++)
+        size = fmaxf(size, figure->survey.bounds_max[c] - figure->survey.bounds_min[c]);
+    b->triangle_entry = figure->coloring.index;
+    b->per_vertex = figure->coloring.per_vertex;
     const cgt_triangles triangles = {.count = f->triangles,
                                      .indices = cgt_uint32s(f->index, 0),
                                      .vertex_count = f->count,
                                      .vertices = cgt_floats(f->position, 0),
                                      .mask = 1u << (glass ? GLASS : OPAQUE)};
     const uint32_t entry = f->triangles ? b->triangle_entry[0] : 0;
-    const cgt_result result = set_geometry(r,
+    const cgt_result result = set_geometry(figure,
                                            &(cgt_look){.material = material_of(b, o, rule, entry, 0.2f * size),
                                                        .bodies = glass ? b->body : NULL,
                                                        .sheet = !glass,
                                                        .index = b->triangle_entry,
                                                        .per_vertex = b->per_vertex},
                                            NULL, &triangles);
-    return result ? render_fail_library(r, "take the triangles", result) : 0;
+    return result ? cgt_figure_fail_library(figure, "take the triangles", result) : 0;
 }
 
-int render_bounce_find(const renderer *r, uint32_t geometry, uint32_t *primitive)
+int cgt_figure_bounce_find(const cgt_figure *figure, uint32_t geometry, uint32_t *primitive)
 {
-    const render_bounce *const b = r->bounce;
-    if (r->frame->kind == CGT_TRAJECTORY_TRIANGLES)
+    const figure_bounce *const b = figure->bounce;
+    if (figure->frame->kind == CGT_TRAJECTORY_TRIANGLES)
         return geometry == b->id[0];
     for (int k = 0; k < KINDS; k++)
         if (geometry == b->id[k]) {
@@ -204,31 +202,29 @@ int render_bounce_find(const renderer *r, uint32_t geometry, uint32_t *primitive
 }
 
 /* Materials are made anew, of the colours at hand: a frame looks the same whatever came before it. */
-int render_bounce_set(renderer *r, const frame_parts *parts)
+int cgt_figure_bounce_set(cgt_figure *figure, const frame_parts *parts)
 {
-    render_bounce *b = r->bounce;
+    figure_bounce *b = figure->bounce;
     b->looks = 0;
     b->materials = 1;
     memset(b->material_of, 0, sizeof b->material_of);
     cgt_result result = CGT_OK;
-    if (r->frame->kind == CGT_TRAJECTORY_TRIANGLES) {
-        if (set_triangles(r))
-            return -1;
-    } else if (divide(r, parts)) {
-        program_error("out of memory for the spheres");
+    const int has_spheres = figure->frame->kind != CGT_TRAJECTORY_TRIANGLES;
+    if (!has_spheres && set_triangles(figure))
         return -1;
-    } else {
-        result = set_spheres(r);
-    }
+    if (has_spheres && divide(figure, parts))
+        return cgt_figure_fail(figure, "out of memory for the spheres");
+    if (has_spheres)
+        result = set_spheres(figure);
     if (result == CGT_OK && b->floor.count)
-        result = set_geometry(r, &(cgt_look){.sheet = true, .colors = b->floor_color[0]}, NULL, &b->floor);
-    return result ? render_fail_library(r, "take the frame", result) : 0;
+        result = set_geometry(figure, &(cgt_look){.sheet = true, .colors = b->floor_color[0]}, NULL, &b->floor);
+    return result ? cgt_figure_fail_library(figure, "take the frame", result) : 0;
 }
 
 /* ---- Set-up ------------------------------------------------------------------------------------------------- */
 
 /* One colour, or those of squares. */
-static void color_floor(render_bounce *b)
+static void color_floor(figure_bounce *b)
 {
     for (uint32_t i = 0; i < b->floor.count; i++) {
         const uint32_t square = i / 2;
@@ -238,32 +234,24 @@ static void color_floor(render_bounce *b)
     }
 }
 
-int render_bounce_create(renderer *r)
+int cgt_figure_bounce_create(cgt_figure *figure)
 {
-    if (render_scene_has_figures(r) || r->cell || r->options.cell.mode) {
-        program_error("--bounces takes the file's spheres or triangles, without figures and without --cell");
-        return -1;
-    }
-    if (r->options.stats) {
-        program_error("--stats counts the camera's rays, and with --bounces those are the fewest");
-        return -1;
-    }
-    render_bounce *const b = calloc(1, sizeof *b);
-    r->bounce = b;
-    if (!b) {
-        program_error("out of memory for mirrors and glass");
-        return -1;
-    }
-    b->palette = (const float(*)[3])r->parts.palette;
+    if (cgt_figure_scene_has_figures(figure))
+        return cgt_figure_fail(figure, "--bounces takes the file's spheres or triangles, without figures");
+    figure_bounce *const b = calloc(1, sizeof *b);
+    figure->bounce = b;
+    if (!b)
+        return cgt_figure_fail(figure, "out of memory for mirrors and glass");
+    b->palette = (const float(*)[3])figure->parts.palette;
     b->material[0] = (cgt_material){.kind = CGT_MATERIAL_MATTE, .color = {0.7f, 0.7f, 0.7f}};
     b->materials = 1;
-    b->floor = r->parts.floor.triangles;
+    b->floor = figure->parts.floor.triangles;
     b->floor.mask = 1u << OPAQUE;
     color_floor(b);
     return 0;
 }
 
-void render_bounce_release(render_bounce *b)
+void cgt_figure_bounce_release(figure_bounce *b)
 {
     if (!b)
         return;
@@ -277,17 +265,17 @@ void render_bounce_release(render_bounce *b)
     free(b);
 }
 
-void render_bounce_settings(const renderer *r, cgt_picture_options *settings)
+void cgt_figure_bounce_settings(const cgt_figure *figure, cgt_picture_options *settings)
 {
-    settings->bounces.materials = r->bounce->material;
+    settings->bounces.materials = figure->bounce->material;
     settings->bounces.material_count = MOST_MATERIALS;
-    settings->bounces.limit = r->options.figure.bounce.bounces;
+    settings->bounces.limit = figure->options.bounce.bounces;
     settings->bounces.shadow_mask = 1u << OPAQUE;
     settings->bounces.glass_mask = 1u << GLASS;
-    memcpy(settings->bounces.up, r->path.start.up, sizeof settings->bounces.up);
+    memcpy(settings->bounces.up, figure->path.start.up, sizeof settings->bounces.up);
 }
 
-uint32_t render_bounce_looks(const render_bounce *b, cgt_look *looks)
+uint32_t cgt_figure_bounce_looks(const figure_bounce *b, cgt_look *looks)
 {
     memcpy(looks, b->look, b->looks * sizeof *looks);
     return b->looks;
