@@ -11,6 +11,7 @@
 
 #include "common/option_help.h"
 #include "common/program.h"
+#include "options/numbers.h"
 
 typedef struct options_state {
     const option_table *table;
@@ -24,18 +25,6 @@ typedef struct options_state {
 /* ---- Words -------------------------------------------------------------------------------------------------- */
 
 static const char separators[] = ", ";
-
-int option_find_word(const char *list, const char *word)
-{
-    const size_t length = strlen(word);
-    for (int i = 0; *list; i++) {
-        const size_t size = strcspn(list, separators);
-        if (size == length && memcmp(list, word, size) == 0)
-            return i;
-        list += size + strspn(list + size, separators);
-    }
-    return -1;
-}
 
 /* "is not A, B or C". */
 static void refuse_word(const char *text, const char *list, char *error, size_t size)

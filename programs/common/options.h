@@ -11,6 +11,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "options/numbers.h"
+
 typedef enum option_type {
     OPTION_FLAG,   /* int: becomes `first` */
     OPTION_BOOL,   /* bool: becomes true */
@@ -25,9 +27,6 @@ typedef enum option_type {
     OPTION_PARSED, /* as parse does */
     OPTION_REFUSED /* none: `help` says why not, and --help does not show it */
 } option_type;
-
-/* Reads a value to its place. Returns 0, or -1 with a sentence. */
-typedef int option_parser(const char *text, void *to, char *error, size_t error_size);
 
 typedef struct option_row {
     const char *name;  /* NULL: `help` is a heading, and the rows that follow are shown in the order of its `group` */
@@ -71,9 +70,6 @@ int option_next(const char **list, char item[OPTION_ITEM_SIZE]);
 
 /* The number of a name; -1 with a sentence where there is none such. */
 int option_find(const char *const *names, const char *name, char *error, size_t error_size);
-
-/* The number of a word in a list with blanks or ", " between them; -1: it is not there. */
-int option_find_word(const char *list, const char *word);
 
 enum { OPTIONS_MOST = 160 };
 

@@ -8,7 +8,7 @@
 #include "common/options.h"
 #include "common/out_file.h"
 #include "common/program.h"
-#include "playback/origin.h"
+#include "survey/origin.h"
 #include "trajectory/trajectory_formats.h"
 #include "trajectory/trajectory_status.h"
 

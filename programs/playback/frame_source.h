@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "playback/frame_sequence.h"
+#include "sequence/frame_sequence.h"
 #include "playback/frames/frame_keep.h"
 #include <cgt/trajectory.h>
 

@@ -7,7 +7,7 @@
 
 #include "common/stop_flag.h"
 #include "playback/frame_source.h"
-#include "playback/survey.h"
+#include "survey/survey.h"
 
 /* What a survey does. */
 typedef struct survey_plan {

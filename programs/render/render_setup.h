@@ -15,7 +15,7 @@
 #include "playback/survey_run.h"
 #include "common/program.h"
 #include "picture/files/image_write.h"
-#include "render/figure_state.h"
+#include "figure_state.h"
 #include "render/options/render_options.h"
 #include "render/stream/render_reader.h"
 #include "render/render_report.h"

@@ -5,7 +5,7 @@
 #ifndef TRAJECTORY_ELEMENTS_H
 #define TRAJECTORY_ELEMENTS_H
 
-#include "picture/figures/element_symbols.h"
+#include "data/element_symbols.h"
 #include "trajectory/text/text_reader.h"
 
 #define ELEMENT_DEFAULT_RADIUS 2.0f /* Angstrom: elements missing from the table, and names that are no elements */

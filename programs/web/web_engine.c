@@ -15,8 +15,8 @@
 #include <cgt/trajectory.h>
 
 #include "playback/survey_run.h"
-#include "render/figure_state.h"
-#include "picture/figures/element_symbols.h"
+#include "figure_state.h"
+#include "data/element_symbols.h"
 #include "view/view_camera.h"
 
 /* How much a picture takes: SHADED is that of a style which is not plain while the camera moves. */

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "common/program.h"
+#include "options/numbers.h"
 
 static char error[PROGRAM_ERROR_SIZE];
 

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "playback/periodic/unwrap.h"
+#include "sequence/unwrap.h"
 
 enum { MOLECULES = 60, MOST = 1500, RUNS = 200 };
 

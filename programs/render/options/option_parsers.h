@@ -6,7 +6,8 @@
 #ifndef OPTION_PARSERS_H
 #define OPTION_PARSERS_H
 
-#include "render/options/figure_parsers.h"
+#include "common/options.h"
+#include "options/figure_values.h"
 #include "render/options/render_options.h"
 
 extern const option_table render_option_table;

@@ -6,7 +6,7 @@
 
 #include <float.h>
 
-#include "picture/figures/trail_history.h"
+#include "sequence/trail_history.h"
 #include "render/options/option_parsers.h"
 #include "trajectory/trajectory_formats.h"
 

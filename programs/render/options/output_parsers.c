@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "common/program.h"
+#include "options/numbers.h"
 #include "picture/files/image_write.h"
 #include "picture/files/movie.h"
 #include "picture/overlay/contact_sheet.h"

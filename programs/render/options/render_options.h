@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The options of cgt-render: those of its figure, and its own. option_table.c has them all; output_parsers.c and
- * figure_parsers.h read values that are more than a number, render_options.c puts in what is not given and checks what
+ * figure_values.h read values that are more than a number, render_options.c puts in what is not given and checks what
  * needs several of them. */
 #ifndef RENDER_OPTIONS_H
 #define RENDER_OPTIONS_H
@@ -13,7 +13,7 @@
 
 #include "common/out_path.h"
 #include "playback/frame_source.h"
-#include "render/options/figure_options.h"
+#include "options/figure_options.h"
 
 /* ---- Movies and parts of runs -------------------------------------------------------------------------------- */
 

@@ -11,10 +11,10 @@
 
 #include "common/program.h"
 #include "common/stop_flag.h"
-#include "picture/color/coloring.h"
+#include "color/coloring.h"
 #include "playback/frames/frame_copy.h"
 #include "playback/frame_source.h"
-#include "render/figure_scene.h"
+#include "scene/figure_scene.h"
 
 /* A frame that was read. */
 typedef struct read_frame {

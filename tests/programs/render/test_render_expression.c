@@ -8,8 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "picture/color/coloring.h"
-#include "picture/figures/expression.h"
+#include "color/coloring.h"
+#include "data/expression.h"
 #include <cgt/picture.h>
 
 enum { COUNT = 300 }; /* more than a block */

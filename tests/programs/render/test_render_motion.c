@@ -9,10 +9,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "playback/camera/camera_keys.h"
-#include "playback/camera/camera_path.h"
+#include "camera/camera_keys.h"
+#include "camera/camera_path.h"
 #include "playback/survey_run.h"
-#include "playback/speed.h"
+#include "sequence/speed.h"
 
 static cgt_context *context; /* of two threads */
 

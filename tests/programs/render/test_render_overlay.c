@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "picture/overlay/overlay.h"
+#include "text/overlay.h"
 
 enum { WIDTH = 320, HEIGHT = 200 };
 

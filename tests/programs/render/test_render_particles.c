@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "picture/figures/figures.h"
+#include "scene/shapes.h"
 
 enum { COUNT = 300 };
 

@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "picture/color/coloring.h"
+#include "color/coloring.h"
 #include "picture/overlay/contact_sheet.h"
 #include "common/out_path.h"
 #include "common/program.h"

@@ -1,0 +1,264 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Whole molecules; see unwrap.h. Bonds join trees of spheres, each with the number of edges by which it is to be moved
+ * against its parent: R. E. Tarjan, "Applications of Path Compression on Balanced Trees", J. ACM 26 (1979), 690-715.
+ * The root of a tree is the first of its spheres in the file. */
+#include "data/frame_access.h"
+#include "sequence/unwrap.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "sequence/periodic_box.h"
+
+typedef struct molecule_sum {
+    double place[3];
+    uint32_t count; /* of spheres at finite places */
+} molecule_sum;
+
+struct unwrapping {
+    unwrap_mode mode;
+    size_t capacity; /* spheres */
+    float *xyzr;
+    uint32_t *parent;
+    double (*move)[3]; /* edges to add, against the parent's */
+    molecule_sum *sum; /* of the molecule whose root this is */
+};
+
+unwrapping *unwrap_create(unwrap_mode mode)
+{
+    unwrapping *const u = calloc(1, sizeof *u);
+    if (u)
+        u->mode = mode;
+    return u;
+}
+
+static void free_arrays(unwrapping *u)
+{
+    free(u->xyzr);
+    free(u->parent);
+    free(u->move);
+    free(u->sum);
+    *u = (unwrapping){.mode = u->mode};
+}
+
+void unwrap_release(unwrapping *u)
+{
+    if (u)
+        free_arrays(u);
+    free(u);
+}
+
+static int reserve(unwrapping *u, size_t count)
+{
+    if (count <= u->capacity && u->xyzr)
+        return 0;
+    free_arrays(u);
+    u->xyzr = malloc((count + 1) * 4 * sizeof *u->xyzr);
+    u->parent = malloc((count + 1) * sizeof *u->parent);
+    u->move = malloc((count + 1) * sizeof *u->move);
+    u->sum = u->mode == UNWRAP_WHOLE ? malloc((count + 1) * sizeof *u->sum) : NULL;
+    if (!u->xyzr || !u->parent || !u->move || (u->mode == UNWRAP_WHOLE && !u->sum)) {
+        free_arrays(u);
+        return -1;
+    }
+    u->capacity = count;
+    return 0;
+}
+
+/* ---- Image flags -------------------------------------------------------------------------------------------- */
+
+static const char *const flags[] = {"ix", "iy", "iz", "image_x", "image_y", "image_z"};
+
+const char *const *unwrap_columns(size_t *count)
+{
+    *count = sizeof flags / sizeof flags[0];
+    return flags;
+}
+
+/* All three columns of flags, or none: 1 or 0. */
+static int find_flags(const cgt_trajectory_frame *f, const float *value[3])
+{
+    for (size_t first = 0; first < sizeof flags / sizeof flags[0]; first += 3) {
+        int found = 1;
+        for (size_t e = 0; e < 3; e++) {
+            const cgt_trajectory_column *const column = frame_column(f, flags[first + e]);
+            value[e] = column && column->kind != CGT_TRAJECTORY_WORD ? column->value : NULL;
+            found &= value[e] != NULL;
+        }
+        if (found)
+            return 1;
+    }
+    return 0;
+}
+
+static void take_flags(unwrapping *u, const cgt_trajectory_frame *f, const float *const value[3])
+{
+    for (uint32_t i = 0; i < f->count; i++)
+        for (int e = 0; e < 3; e++)
+            u->move[i][e] = isfinite(value[e][i]) ? (double)value[e][i] : 0.0;
+}
+
+/* ---- Molecules ---------------------------------------------------------------------------------------------- */
+
+/* The root of a sphere, which becomes its parent; u->move[i] is then against the root, whose own is 0. */
+static uint32_t find_root(unwrapping *u, uint32_t i)
+{
+    uint32_t root = i;
+    double sum[3] = {0.0, 0.0, 0.0};
+    while (u->parent[root] != root) {
+        for (int e = 0; e < 3; e++)
+            sum[e] += u->move[root][e];
+        root = u->parent[root];
+    }
+    while (u->parent[i] != root && i != root) {
+        const uint32_t next = u->parent[i];
+        for (int e = 0; e < 3; e++) {
+            const double own = u->move[i][e];
+            u->move[i][e] = sum[e];
+            sum[e] -= own;
+        }
+        u->parent[i] = root;
+        i = next;
+    }
+    return root;
+}
+
+/* Joins the molecules of both ends. Returns whether they were one that the bond leads back to at another image. */
+static int join(unwrapping *u, const periodic_box *box, const float *xyzr, uint32_t a, uint32_t b)
+{
+    double count[3], between[3]; /* what the root of b must be moved by against that of a */
+    const uint32_t ra = find_root(u, a), rb = find_root(u, b);
+    int differs = 0;
+    periodic_box_crossed(box, xyzr + 4 * (size_t)a, xyzr + 4 * (size_t)b, count);
+    for (int e = 0; e < 3; e++) {
+        between[e] = u->move[a][e] - count[e] - u->move[b][e];
+        differs |= between[e] != 0.0;
+    }
+    if (ra == rb)
+        return differs;
+    const int a_first = ra < rb;
+    u->parent[a_first ? rb : ra] = a_first ? ra : rb;
+    for (int e = 0; e < 3; e++)
+        u->move[a_first ? rb : ra][e] = a_first ? between[e] : -between[e];
+    return 0;
+}
+
+static void add_edges(const periodic_box *box, const double count[3], double place[3])
+{
+    for (int c = 0; c < 3; c++)
+        place[c] += count[0] * box->edge[0][c] + count[1] * box->edge[1][c] + count[2] * box->edge[2][c];
+}
+
+/* The edges by which the middle of a molecule's spheres is outside of the box. */
+static void move_of_middle(const periodic_box *box, const cgt_trajectory_frame *f, const molecule_sum *sum,
+                           double move[3])
+{
+    for (int e = 0; e < 3; e++) {
+        double share = 0.0;
+        for (int c = 0; c < 3 && sum->count; c++)
+            share += box->row[e][c] * (sum->place[c] / sum->count - f->box_origin[c]);
+        move[e] = isfinite(share) ? -floor(share) : 0.0;
+    }
+}
+
+/* Moves each molecule so that its middle is in the box. */
+static void center(unwrapping *u, const periodic_box *box, const cgt_trajectory_frame *f)
+{
+    /* NOLINTNEXTLINE(clang-analyzer-core.NonNullParamChecker): a frame with spheres has reserved it */
+    memset(u->sum, 0, f->count * sizeof *u->sum);
+    for (uint32_t i = 0; i < f->count; i++) {
+        const float *const p = f->xyzr + 4 * (size_t)i;
+        double place[3] = {(double)p[0], (double)p[1], (double)p[2]};
+        molecule_sum *const sum = &u->sum[u->parent[i]];
+        add_edges(box, u->move[i], place);
+        if (!isfinite(place[0] + place[1] + place[2]))
+            continue;
+        for (int c = 0; c < 3; c++)
+            sum->place[c] += place[c];
+        sum->count++;
+    }
+    for (uint32_t i = 0; i < f->count; i++) {
+        double more[3];
+        move_of_middle(box, f, &u->sum[u->parent[i]], more);
+        for (int e = 0; e < 3; e++)
+            u->move[i][e] += more[e];
+    }
+}
+
+/* Returns whether a molecule has no end. */
+static int join_bonds(unwrapping *u, const periodic_box *box, const cgt_trajectory_frame *f)
+{
+    int endless = 0;
+    for (uint32_t i = 0; i < f->count; i++)
+        u->parent[i] = i;
+    memset(u->move, 0, f->count * sizeof *u->move);
+    for (size_t i = 0; i < f->bonds; i++)
+        endless |= join(u, box, f->xyzr, f->bond[2 * i], f->bond[2 * i + 1]);
+    for (uint32_t i = 0; i < f->count; i++)
+        find_root(u, i);
+    return endless;
+}
+
+/* ---- A frame ------------------------------------------------------------------------------------------------ */
+
+static int refuse(const unwrapping *u, const cgt_trajectory_frame *f, const char *problem, char *error, size_t size)
+{
+    snprintf(error, size, "%s: frame %llu %s", u->mode == UNWRAP_WHOLE ? "--whole" : "--unwrap",
+             (unsigned long long)f->number, problem);
+    return -1;
+}
+
+static int is_periodic(const periodic_box *box, int e)
+{
+    return box->row[e][0] != 0.0 || box->row[e][1] != 0.0 || box->row[e][2] != 0.0;
+}
+
+static void set_places(const unwrapping *u, const periodic_box *box, cgt_trajectory_frame *f)
+{
+    for (uint32_t i = 0; i < f->count; i++) {
+        const float *const p = f->xyzr + 4 * (size_t)i;
+        float *const to = u->xyzr + 4 * (size_t)i;
+        double place[3] = {(double)p[0], (double)p[1], (double)p[2]}, count[3];
+        for (int e = 0; e < 3; e++)
+            count[e] = is_periodic(box, e) ? u->move[i][e] : 0.0;
+        add_edges(box, count, place);
+        for (int c = 0; c < 3; c++)
+            to[c] = (float)place[c];
+        to[3] = p[3];
+    }
+    f->xyzr = u->xyzr;
+}
+
+int unwrap_frame(unwrapping *u, cgt_trajectory_frame *f, int *endless, char *error, size_t error_size)
+{
+    const float *value[3];
+    if (f->kind != CGT_TRAJECTORY_SPHERES)
+        return refuse(u, f, "is a mesh, which no periodic box has cut", error, error_size);
+    if (f->box_min[0] > f->box_max[0])
+        return refuse(u, f, "has no box", error, error_size);
+    const periodic_box box = periodic_box_of(f);
+    if (!is_periodic(&box, 0) && !is_periodic(&box, 1) && !is_periodic(&box, 2))
+        return 0;
+    if (reserve(u, f->count))
+        return refuse(u, f, "is too large for the memory", error, error_size);
+    const int has_flags = u->mode == UNWRAP_IMAGES && find_flags(f, value);
+    if (has_flags)
+        take_flags(u, f, value);
+    else if (f->bond)
+        *endless |= join_bonds(u, &box, f);
+    else if (u->mode == UNWRAP_WHOLE)
+        return refuse(u, f, "has no bonds; --topology takes them from another file", error, error_size);
+    else
+        return refuse(u, f, "has neither image flags (ix, iy, iz) nor bonds; --topology takes bonds from another file",
+                      error, error_size);
+    if (u->mode == UNWRAP_WHOLE)
+        center(u, &box, f);
+    set_places(u, &box, f);
+    for (int e = 0; e < 3 && has_flags; e++)
+        f->unwrapped[e] |= is_periodic(&box, e) != 0;
+    return 0;
+}
