@@ -39,11 +39,11 @@ cgt_picture_options cgt_figure_get_settings(const cgt_figure *figure)
     cgt_picture_options s = {
         .width = figure->options.width, .height = figure->options.height, .antialias = figure->options.samples};
     const int is_full =
-        picture_options_need_drawing(o) || cgt_figure_scene_has_figures(figure) || figure->options.floor.is_set;
+        cgt_picture_options_need_drawing(o) || cgt_figure_scene_has_figures(figure) || figure->options.floor.is_set;
     s.shading = figure->options.bounce.is_set ? CGT_SHADING_BOUNCES : is_full ? CGT_SHADING_FULL : CGT_SHADING_PLAIN;
     s.lighting.ambient = (uint32_t)o->ambient;
     s.lighting.ambient_radius =
-        o->ambient_radius < 0.0f ? style_ambient_radius(&figure->path.start) : o->ambient_radius;
+        o->ambient_radius < 0.0f ? cgt_style_ambient_radius(&figure->path.start) : o->ambient_radius;
     s.lighting.light_samples = (uint32_t)o->light_samples;
     set_first_light(figure, &s.lighting.lights[s.lighting.light_count++]);
     for (uint32_t i = 0; i < o->lamp_count; i++)
@@ -53,8 +53,8 @@ cgt_picture_options cgt_figure_get_settings(const cgt_figure *figure)
     s.style.transparent = o->transparent;
     s.style.cue = o->cue;
     s.style.cue_range[0] =
-        fmaxf(0.0f, style_distance(&figure->path.start) - 0.6f * style_shown_height(&figure->path.start));
-    s.style.cue_range[1] = style_distance(&figure->path.start) + 0.6f * style_shown_height(&figure->path.start);
+        fmaxf(0.0f, cgt_style_distance(&figure->path.start) - 0.6f * cgt_style_shown_height(&figure->path.start));
+    s.style.cue_range[1] = cgt_style_distance(&figure->path.start) + 0.6f * cgt_style_shown_height(&figure->path.start);
     s.style.outline = o->outline;
     for (int c = 0; c < 3; c++) {
         s.style.background[c] = cgt_srgb_decode(o->background[c]);
@@ -77,7 +77,7 @@ static void set_projection(const cgt_figure *figure, cgt_camera *camera)
     if (!figure->options.picture.ortho)
         return;
     camera->projection = CGT_PROJECTION_ORTHOGRAPHIC;
-    camera->height = style_shown_height(camera);
+    camera->height = cgt_style_shown_height(camera);
 }
 
 /* ---- Overlay ------------------------------------------------------------------------------------------------ */
@@ -109,7 +109,7 @@ static void choose_legend(cgt_figure *figure)
             continue;
         if (v->kind_count < OVERLAY_MOST_KINDS) {
             overlay_kind *const line = &figure->kinds[v->kind_count];
-            memcpy(line->color, figure->coloring.palette[coloring_entry_of_kind(&figure->coloring, kind)],
+            memcpy(line->color, figure->coloring.palette[cgt_coloring_entry_of_kind(&figure->coloring, kind)],
                    sizeof line->color);
             name_kind(figure, kind, is_element, line->name, sizeof line->name);
         }
@@ -122,11 +122,11 @@ static void choose_bar(cgt_figure *figure)
     const picture_options *o = &figure->options.picture;
     figure->overlay.bar = o->bar;
     if (o->bar && !(figure->coloring.max > figure->coloring.min))
-        notices_add(&figure->notices,
-                    "--colorbar: the colours are those of neither types nor values of some range: there is no bar");
+        cgt_notices_add(&figure->notices,
+                        "--colorbar: the colours are those of neither types nor values of some range: there is no bar");
     if (o->legend)
-        notices_add(&figure->notices,
-                    "--legend: the colours are those of neither types nor elements: there is no legend");
+        cgt_notices_add(&figure->notices,
+                        "--legend: the colours are those of neither types nor elements: there is no legend");
 }
 
 static int choose_overlay(cgt_figure *figure)
@@ -134,10 +134,10 @@ static int choose_overlay(cgt_figure *figure)
     const picture_options *o = &figure->options.picture;
     const uint8_t *back = o->background;
     overlay *v = &figure->overlay;
-    if (!picture_options_have_overlay(o))
+    if (!cgt_picture_options_have_overlay(o))
         return 0;
     v->size = fmaxf(8.0f, o->text_size * (float)figure->options.height);
-    v->font = text_open(o->font, v->size, figure->message, sizeof figure->message);
+    v->font = cgt_text_open(o->font, v->size, figure->message, sizeof figure->message);
     if (!v->font)
         return -1;
     v->title = o->title;
@@ -162,7 +162,7 @@ void cgt_figure_draw_overlay(cgt_figure *figure)
     if (!figure->overlay.font)
         return;
     cgt_camera_get_axes(&figure->camera, frame.right, frame.up, frame.forward);
-    overlay_draw(&figure->overlay, &c, &frame);
+    cgt_overlay_draw(&figure->overlay, &c, &frame);
 }
 
 /* ---- Pictures -------------------------------------------------------------------------------------------------- */
@@ -189,7 +189,7 @@ void cgt_figure_close_picture(cgt_figure *figure)
 {
     cgt_picture_release(figure->drawing);
     figure->drawing = NULL;
-    text_close(figure->overlay.font);
+    cgt_text_close(figure->overlay.font);
     memset(&figure->overlay, 0, sizeof figure->overlay);
 }
 

@@ -59,17 +59,17 @@ int cgt_figure_open(cgt_figure *figure)
     frame_sequence *const sequence = &figure->sequence;
     const unwrap_mode mode = o->whole ? UNWRAP_WHOLE : o->unwrap ? UNWRAP_IMAGES : UNWRAP_NOT;
     if (o->by == COLORING_VALUE &&
-        !(figure->formula = expression_parse(o->formula, figure->message, sizeof figure->message)))
+        !(figure->formula = cgt_expression_parse(o->formula, figure->message, sizeof figure->message)))
         return -1;
     if (o->by == COLORING_AUTO || o->by == COLORING_SPEED ||
-        (figure->formula && expression_uses(figure->formula, "speed"))) {
-        sequence->tracker = speed_create(figure->context);
+        (figure->formula && cgt_expression_uses(figure->formula, "speed"))) {
+        sequence->tracker = cgt_speed_create(figure->context);
         if (!sequence->tracker)
             return cgt_figure_fail(figure, "out of memory");
     }
     sequence->wants_kinds = has_legend(o);
-    if (frame_sequence_unwrap(sequence, mode, figure->message, sizeof figure->message) ||
-        frame_sequence_bind(sequence, figure->formula, figure->message, sizeof figure->message))
+    if (cgt_frame_sequence_unwrap(sequence, mode, figure->message, sizeof figure->message) ||
+        cgt_frame_sequence_bind(sequence, figure->formula, figure->message, sizeof figure->message))
         return -1;
     return cgt_figure_scene_open(figure);
 }
@@ -102,7 +102,7 @@ const camera_directions *cgt_figure_begin_fit(cgt_figure *figure)
         return NULL;
     for (int kind = 0; kind < 2; kind++) {
         figure_options o = figure->options;
-        figure_options_axes(&o, kind ? CGT_TRAJECTORY_TRIANGLES : CGT_TRAJECTORY_SPHERES);
+        cgt_figure_options_axes(&o, kind ? CGT_TRAJECTORY_TRIANGLES : CGT_TRAJECTORY_SPHERES);
         cgt_camera_directions_set(&figure->fit[kind], o.view, o.up, o.fov, (double)o.width / (double)o.height,
                                   (double)o.orbit, o.picture.ortho);
     }
@@ -117,8 +117,8 @@ static void take_origin(cgt_figure *figure, const double more[3], const char *wh
     for (int c = 0; c < 3; c++)
         figure->origin[c] += more[c];
     char text[300];
-    origin_tell(figure->origin, what, text, sizeof text);
-    notices_add(&figure->notices, "%s", text);
+    cgt_origin_tell(figure->origin, what, text, sizeof text);
+    cgt_notices_add(&figure->notices, "%s", text);
 }
 
 int cgt_figure_choose_camera_origin(cgt_figure *figure)
@@ -129,7 +129,7 @@ int cgt_figure_choose_camera_origin(cgt_figure *figure)
         eye[c] = camera->eye[c] - figure->origin[c];
         target[c] = camera->target[c] - figure->origin[c];
     }
-    if (!figure->options.has_camera || figure->has_origin || !origin_of_camera(eye, target, origin))
+    if (!figure->options.has_camera || figure->has_origin || !cgt_origin_of_camera(eye, target, origin))
         return 0;
     take_origin(figure, origin, "the camera looks at places");
     return 1;
@@ -139,7 +139,7 @@ int cgt_figure_choose_bulk_origin(cgt_figure *figure)
 {
     double origin[3];
     if (!figure->has_survey || figure->options.has_camera || figure->has_origin ||
-        figure->survey.kind == CGT_TRAJECTORY_TRIANGLES || !origin_of_bulk(&figure->survey.bulk, origin))
+        figure->survey.kind == CGT_TRAJECTORY_TRIANGLES || !cgt_origin_of_bulk(&figure->survey.bulk, origin))
         return 0;
     take_origin(figure, origin, "the spheres are");
     return 1;
@@ -148,14 +148,14 @@ int cgt_figure_choose_bulk_origin(cgt_figure *figure)
 int cgt_figure_move_cameras(cgt_figure *figure)
 {
     figure_options *const o = &figure->options;
-    int same = o->has_camera && camera_key_move(&o->camera, figure->origin);
+    int same = o->has_camera && cgt_camera_key_move(&o->camera, figure->origin);
     for (size_t k = 0; k < o->keys.count; k++)
-        same |= camera_key_move(&o->keys.key[k], figure->origin);
+        same |= cgt_camera_key_move(&o->keys.key[k], figure->origin);
     if (same)
         return cgt_figure_fail(
             figure, "eye and target of the camera are the same point in single precision: an --origin near them helps");
     if (figure->has_survey)
-        figure_options_axes(o, figure->survey.kind);
+        cgt_figure_options_axes(o, figure->survey.kind);
     return 0;
 }
 
@@ -175,30 +175,30 @@ void cgt_figure_name_camera(const cgt_figure *figure, const cgt_camera *camera, 
 int cgt_figure_choose_colors(cgt_figure *figure)
 {
     const figure_options *o = &figure->options;
-    const coloring_by by = o->by == COLORING_AUTO ? coloring_choose(&figure->survey) : o->by;
+    const coloring_by by = o->by == COLORING_AUTO ? cgt_coloring_choose(&figure->survey) : o->by;
     const int axis = o->up[0] != 0.0f ? 0 : o->up[1] != 0.0f ? 1 : 2;
     double min = o->range_min, max = o->range_max;
     if (!o->has_range)
-        coloring_choose_range(&figure->survey, by, axis, o->logarithmic, figure->origin, &min, &max);
+        cgt_coloring_choose_range(&figure->survey, by, axis, o->logarithmic, figure->origin, &min, &max);
     if (!figure_is_moved(figure)) { /* near 0 single precision does, and is what settings are printed in */
         min = (double)(float)min;
         max = (double)(float)max;
     }
     const int is_chosen = o->by == COLORING_AUTO && by == COLORING_ID;
-    if ((is_chosen || by == COLORING_SPEED) && coloring_has_jumps(&figure->survey))
-        notices_add(&figure->notices,
-                    "spheres move by more than half of the run's extent in one frame, as through the boundary of a "
-                    "periodic box, but the file has no box: %s",
-                    is_chosen ? "colours are not chosen by speed" : "speeds may be false");
-    if (by == COLORING_PLAIN ? coloring_init_plain(&figure->coloring, o->plain)
-                             : coloring_init(&figure->coloring, by, o->map, min, max))
+    if ((is_chosen || by == COLORING_SPEED) && cgt_coloring_has_jumps(&figure->survey))
+        cgt_notices_add(&figure->notices,
+                        "spheres move by more than half of the run's extent in one frame, as through the boundary of a "
+                        "periodic box, but the file has no box: %s",
+                        is_chosen ? "colours are not chosen by speed" : "speeds may be false");
+    if (by == COLORING_PLAIN ? cgt_coloring_init_plain(&figure->coloring, o->plain)
+                             : cgt_coloring_init(&figure->coloring, by, o->map, min, max))
         return cgt_figure_fail(figure, "out of memory");
     cgt_figure_scene_color(figure);
     figure->coloring.axis = axis;
     figure->coloring.formula = figure->formula;
     figure->coloring.logarithmic = o->logarithmic && by != COLORING_TYPE && by != COLORING_PLAIN && min > 0.0;
     if (o->logarithmic && !figure->coloring.logarithmic)
-        notices_add(&figure->notices, "--log-scale: there is nothing above 0 to scale: the scale is linear");
+        cgt_notices_add(&figure->notices, "--log-scale: there is nothing above 0 to scale: the scale is linear");
     return 0;
 }
 
@@ -245,7 +245,7 @@ static void follow_bulk(cgt_figure *figure)
     int narrowed;
     const float was_min[3] = {s->bounds_min[0], s->bounds_min[1], s->bounds_min[2]};
     const float was_max[3] = {s->bounds_max[0], s->bounds_max[1], s->bounds_max[2]};
-    const uint64_t outside = bulk_narrow(&s->bulk, s->bounds_min, s->bounds_max, &narrowed);
+    const uint64_t outside = cgt_bulk_narrow(&s->bulk, s->bounds_min, s->bounds_max, &narrowed);
     if (narrowed)
         narrow_reach(s, figure_fit(figure));
     if (!narrowed || figure->options.has_camera)
@@ -253,11 +253,11 @@ static void follow_bulk(cgt_figure *figure)
     char bounds[2][BOUNDS_SIZE];
     write_bounds(figure, s->bounds_min, s->bounds_max, bounds[0]);
     write_bounds(figure, was_min, was_max, bounds[1]);
-    notices_add(&figure->notices,
-                "the camera follows the bulk, %s, and leaves out about %" PRIu64 " of %" PRIu64
-                " %s of the run, which reaches %s",
-                bounds[0], outside, s->drawable, s->kind == CGT_TRAJECTORY_TRIANGLES ? "triangles" : "spheres",
-                bounds[1]);
+    cgt_notices_add(&figure->notices,
+                    "the camera follows the bulk, %s, and leaves out about %" PRIu64 " of %" PRIu64
+                    " %s of the run, which reaches %s",
+                    bounds[0], outside, s->drawable, s->kind == CGT_TRAJECTORY_TRIANGLES ? "triangles" : "spheres",
+                    bounds[1]);
 }
 
 int cgt_figure_choose_camera(cgt_figure *figure)
@@ -268,7 +268,7 @@ int cgt_figure_choose_camera(cgt_figure *figure)
     if (s->drawable)
         follow_bulk(figure);
     if (o->has_camera) {
-        camera_path_fixed(&figure->path, &o->camera.camera, (double)o->orbit);
+        cgt_camera_path_fixed(&figure->path, &o->camera.camera, (double)o->orbit);
         cgt_figure_scene_bound(figure);
         return 0;
     }
@@ -280,9 +280,9 @@ int cgt_figure_choose_camera(cgt_figure *figure)
         }
         cgt_camera_reach_add_box(&s->reach, fit, s->bounds_min, s->bounds_max);
     }
-    if (camera_path_fit(&figure->path, fit, &s->reach, s->bounds_min, s->bounds_max) == 0) {
+    if (cgt_camera_path_fit(&figure->path, fit, &s->reach, s->bounds_min, s->bounds_max) == 0) {
         if (o->zoom > 0.0f)
-            camera_path_zoom(&figure->path, o->zoom);
+            cgt_camera_path_zoom(&figure->path, o->zoom);
         return 0;
     }
     char bounds[BOUNDS_SIZE];
@@ -304,9 +304,9 @@ void cgt_figure_camera_at(const cgt_figure *figure, uint64_t number, cgt_camera 
 {
     const double share = figure->survey.has_total ? (double)number / (double)figure->survey.total : 0.0;
     if (figure->options.keys.count)
-        camera_keys_at(&figure->options.keys, number, camera);
+        cgt_camera_keys_at(&figure->options.keys, number, camera);
     else
-        camera_path_at(&figure->path, share, camera);
+        cgt_camera_path_at(&figure->path, share, camera);
 }
 
 /* ---- All that is left ---------------------------------------------------------------------------------------- */
@@ -314,9 +314,9 @@ void cgt_figure_camera_at(const cgt_figure *figure, uint64_t number, cgt_camera 
 /* Speeds that the colours do not show are not looked for. */
 static void drop_speeds(cgt_figure *figure)
 {
-    if (figure->coloring.by == COLORING_SPEED || (figure->formula && expression_uses(figure->formula, "speed")))
+    if (figure->coloring.by == COLORING_SPEED || (figure->formula && cgt_expression_uses(figure->formula, "speed")))
         return;
-    speed_release(figure->sequence.tracker);
+    cgt_speed_release(figure->sequence.tracker);
     figure->sequence.tracker = NULL;
 }
 
@@ -328,10 +328,10 @@ int cgt_figure_settle(cgt_figure *figure)
     if (result)
         return cgt_figure_fail_library(figure, "make a scene", result);
     if (o->picture.ambient < 0) {
-        const style_values *const s = style_get(o->picture.style);
+        const style_values *const s = cgt_style_get(o->picture.style);
         o->picture.ambient = figure->is_mesh ? s->mesh_ambient : s->ambient;
     }
-    camera_path_at(&figure->path, 0.0, &figure->camera);
+    cgt_camera_path_at(&figure->path, 0.0, &figure->camera);
     cgt_figure_choose_light(figure);
     if (o->floor.is_set)
         cgt_figure_scene_floor(figure);
@@ -343,10 +343,10 @@ void cgt_figure_close(cgt_figure *figure)
     cgt_figure_close_picture(figure);
     cgt_figure_bounce_release(figure->bounce);
     cgt_scene_release(figure->scene);
-    coloring_free(&figure->coloring);
+    cgt_coloring_free(&figure->coloring);
     cgt_figure_scene_close(figure);
-    frame_sequence_close(&figure->sequence);
-    expression_free(figure->formula);
-    camera_keys_free(&figure->options.keys);
-    notices_free(&figure->notices);
+    cgt_frame_sequence_close(&figure->sequence);
+    cgt_expression_free(figure->formula);
+    cgt_camera_keys_free(&figure->options.keys);
+    cgt_notices_free(&figure->notices);
 }

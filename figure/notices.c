@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-void notices_add(notices *n, const char *format, ...)
+void cgt_notices_add(notices *n, const char *format, ...)
 {
     char text[1024];
     va_list arguments;
@@ -28,15 +28,15 @@ void notices_add(notices *n, const char *format, ...)
     n->text[n->count++] = copy;
 }
 
-const char *notices_take(notices *n)
+const char *cgt_notices_take(notices *n)
 {
     if (n->taken < n->count)
         return n->text[n->taken++];
-    notices_free(n);
+    cgt_notices_free(n);
     return NULL;
 }
 
-void notices_free(notices *n)
+void cgt_notices_free(notices *n)
 {
     for (size_t i = 0; i < n->count; i++)
         free(n->text[i]);

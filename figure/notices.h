@@ -15,11 +15,11 @@ typedef struct notices {
 } notices;
 
 /* Adds a sentence; it is lost where there is no memory. */
-void notices_add(notices *n, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void cgt_notices_add(notices *n, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* The next sentence, valid until the next call; NULL: there is no more. */
-const char *notices_take(notices *n);
+const char *cgt_notices_take(notices *n);
 
-void notices_free(notices *n);
+void cgt_notices_free(notices *n);
 
 #endif

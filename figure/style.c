@@ -6,9 +6,9 @@
 
 #include <math.h>
 
-const float style_mesh_color[3] = {0xdc / 255.0f, 0xd3 / 255.0f, 0xc4 / 255.0f};
+const float cgt_style_mesh_color[3] = {0xdc / 255.0f, 0xd3 / 255.0f, 0xc4 / 255.0f};
 
-const style_values *style_get(picture_style style)
+const style_values *cgt_style_get(picture_style style)
 {
     /* Where all of a style's light falls, a colour is shown as it is or little brighter. */
     static const style_values styles[] = {
@@ -19,7 +19,7 @@ const style_values *style_get(picture_style style)
     return &styles[style];
 }
 
-float style_distance(const cgt_camera *camera)
+float cgt_style_distance(const cgt_camera *camera)
 {
     float square = 0.0f;
     for (int c = 0; c < 3; c++) {
@@ -29,13 +29,13 @@ float style_distance(const cgt_camera *camera)
     return sqrtf(square);
 }
 
-float style_shown_height(const cgt_camera *camera)
+float cgt_style_shown_height(const cgt_camera *camera)
 {
-    return 2.0f * style_distance(camera) * tanf(camera->fov * 0.00872664626f);
+    return 2.0f * cgt_style_distance(camera) * tanf(camera->fov * 0.00872664626f);
 }
 
-float style_ambient_radius(const cgt_camera *camera)
+float cgt_style_ambient_radius(const cgt_camera *camera)
 {
     const float share = 0.25f; /* of the height */
-    return share * style_shown_height(camera);
+    return share * cgt_style_shown_height(camera);
 }

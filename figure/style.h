@@ -18,16 +18,16 @@ typedef struct style_values {
     uint8_t background[3];         /* sRGB */
 } style_values;
 
-extern const float style_mesh_color[3]; /* sRGB, 0 to 1: of meshes without another */
+extern const float cgt_style_mesh_color[3]; /* sRGB, 0 to 1: of meshes without another */
 
-const style_values *style_get(picture_style style);
+const style_values *cgt_style_get(picture_style style);
 
 /* The height of what a camera shows at its target. It stands for the size of the scene: it is known without a look at
  * the frames, and the same for all of them. */
-float style_shown_height(const cgt_camera *camera);
-float style_distance(const cgt_camera *camera); /* to its target */
+float cgt_style_shown_height(const cgt_camera *camera);
+float cgt_style_distance(const cgt_camera *camera); /* to its target */
 
 /* What lies farther off does not occlude, where nothing else is said. */
-float style_ambient_radius(const cgt_camera *camera);
+float cgt_style_ambient_radius(const cgt_camera *camera);
 
 #endif

@@ -40,8 +40,8 @@ static int parse_key(char *line, camera_key *key, char *error, size_t size)
         snprintf(error, size, "a line has a frame, a camera and perhaps ease, linear or hold");
         return -1;
     }
-    if (program_parse_u64(frame, 0, UINT64_MAX - 1, &key->frame, error, size) ||
-        program_parse_far_camera(camera, &key->camera, key->eye, key->target, error, size))
+    if (cgt_read_u64(frame, 0, UINT64_MAX - 1, &key->frame, error, size) ||
+        cgt_read_far_camera(camera, &key->camera, key->eye, key->target, error, size))
         return -1;
     if (pace && parse_pace(pace, &key->pace)) {
         snprintf(error, size, "\"%s\" is not ease, linear or hold", pace);
@@ -73,7 +73,7 @@ static int add_line(camera_keys *keys, char *line, char *error, size_t size)
     return 0;
 }
 
-int camera_keys_read(camera_keys *keys, const char *path, char *error, size_t error_size)
+int cgt_camera_keys_read(camera_keys *keys, const char *path, char *error, size_t error_size)
 {
     char line[1024], reason[512];
     unsigned number = 0;
@@ -100,17 +100,17 @@ int camera_keys_read(camera_keys *keys, const char *path, char *error, size_t er
     failed |= ferror(file) || keys->count == 0;
     fclose(file);
     if (failed)
-        camera_keys_free(keys);
+        cgt_camera_keys_free(keys);
     return failed ? -1 : 0;
 }
 
-void camera_keys_free(camera_keys *keys)
+void cgt_camera_keys_free(camera_keys *keys)
 {
     free(keys->key);
     memset(keys, 0, sizeof *keys);
 }
 
-int camera_key_move(camera_key *key, const double origin[3])
+int cgt_camera_key_move(camera_key *key, const double origin[3])
 {
     for (int c = 0; c < 3; c++) {
         key->camera.eye[c] = (float)(key->eye[c] - origin[c]);
@@ -170,7 +170,7 @@ static void between(const cgt_camera *a, const cgt_camera *b, double s, cgt_came
     }
 }
 
-void camera_keys_at(const camera_keys *keys, uint64_t frame, cgt_camera *camera)
+void cgt_camera_keys_at(const camera_keys *keys, uint64_t frame, cgt_camera *camera)
 {
     size_t k = 0;
     while (k + 1 < keys->count && keys->key[k + 1].frame <= frame)

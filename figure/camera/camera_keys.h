@@ -29,13 +29,13 @@ typedef struct camera_keys {
 } camera_keys;
 
 /* Reads a file: one key at least. Returns 0, or -1 with a sentence that names file and line. */
-int camera_keys_read(camera_keys *keys, const char *path, char *error, size_t error_size);
-void camera_keys_free(camera_keys *keys);
+int cgt_camera_keys_read(camera_keys *keys, const char *path, char *error, size_t error_size);
+void cgt_camera_keys_free(camera_keys *keys);
 
 /* Subtracts an origin from eye and target. Returns 0, or -1 where they are then the same in single precision. */
-int camera_key_move(camera_key *key, const double origin[3]);
+int cgt_camera_key_move(camera_key *key, const double origin[3]);
 
 /* The camera at a frame: exactly a key's at its frame, the first one's before it, the last one's behind it. */
-void camera_keys_at(const camera_keys *keys, uint64_t frame, cgt_camera *camera);
+void cgt_camera_keys_at(const camera_keys *keys, uint64_t frame, cgt_camera *camera);
 
 #endif

@@ -8,32 +8,32 @@
 
 static const double pi = 3.14159265358979323846;
 
-void camera_path_fixed(camera_path *path, const cgt_camera *camera, double orbit_degrees)
+void cgt_camera_path_fixed(camera_path *path, const cgt_camera *camera, double orbit_degrees)
 {
     path->start = *camera;
     path->orbit_degrees = orbit_degrees;
 }
 
-void camera_path_at(const camera_path *path, double share, cgt_camera *camera)
+void cgt_camera_path_at(const camera_path *path, double share, cgt_camera *camera)
 {
     *camera = path->start;
     cgt_camera_orbit(camera, path->orbit_degrees * share);
 }
 
-int camera_path_fit(camera_path *path, const camera_directions *fit, const camera_reach *reach, const float min[3],
-                    const float max[3])
+int cgt_camera_path_fit(camera_path *path, const camera_directions *fit, const camera_reach *reach, const float min[3],
+                        const float max[3])
 {
     path->orbit_degrees = fit->orbit_degrees;
     return cgt_camera_reach_show(reach, fit, min, max, &path->start) == CGT_OK ? 0 : -1;
 }
 
-void camera_path_zoom(camera_path *path, float factor)
+void cgt_camera_path_zoom(camera_path *path, float factor)
 {
     const double half = (double)path->start.fov * pi / 360.0;
     path->start.fov = (float)(atan(tan(half) / (double)factor) * 360.0 / pi);
 }
 
-int camera_path_is_along(const float v[3], const float axis[3])
+int cgt_camera_path_is_along(const float v[3], const float axis[3])
 {
     float along = 0.0f, length = 0.0f, largest = 0.0f;
     for (int c = 0; c < 3; c++)

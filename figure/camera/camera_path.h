@@ -17,21 +17,21 @@ typedef struct camera_path {
 } camera_path;
 
 /* Sets up a path for a given camera. */
-void camera_path_fixed(camera_path *path, const cgt_camera *camera, double orbit_degrees);
+void cgt_camera_path_fixed(camera_path *path, const cgt_camera *camera, double orbit_degrees);
 
 /* Sets up a path that shows all of what was added, in the middle of the picture at the start, and all along the orbit,
  * with a small margin. min, max: the bounds of it; their centre is as far off as the target, and what an orbit goes
  * around. Returns 0, or -1 where floats cannot hold such a camera: bounds that are not finite or too large. */
-int camera_path_fit(camera_path *path, const camera_directions *fit, const camera_reach *reach, const float min[3],
-                    const float max[3]);
+int cgt_camera_path_fit(camera_path *path, const camera_directions *fit, const camera_reach *reach, const float min[3],
+                        const float max[3]);
 
 /* Narrows the angle so that all is drawn `factor` times as large, above 0. */
-void camera_path_zoom(camera_path *path, float factor);
+void cgt_camera_path_zoom(camera_path *path, float factor);
 
 /* The camera at share 0 to 1 of the run. Share 0 is exactly the start. */
-void camera_path_at(const camera_path *path, double share, cgt_camera *camera);
+void cgt_camera_path_at(const camera_path *path, double share, cgt_camera *camera);
 
 /* Whether a direction, of any length but zero, is parallel or nearly parallel to a coordinate axis: 1 or 0. */
-int camera_path_is_along(const float direction[3], const float axis[3]);
+int cgt_camera_path_is_along(const float direction[3], const float axis[3]);
 
 #endif

@@ -16,7 +16,7 @@ static void set_entry(coloring *c, size_t entry, const float srgb[3])
         c->palette[entry][k] = cgt_srgb_to_linear(srgb[k]);
 }
 
-int coloring_init(coloring *c, coloring_by by, const cgt_colormap *map, double min, double max)
+int cgt_coloring_init(coloring *c, coloring_by by, const cgt_colormap *map, double min, double max)
 {
     float srgb[3];
     memset(c, 0, sizeof *c);
@@ -44,27 +44,27 @@ int coloring_init(coloring *c, coloring_by by, const cgt_colormap *map, double m
     return 0;
 }
 
-int coloring_init_plain(coloring *c, const float srgb[3])
+int cgt_coloring_init_plain(coloring *c, const float srgb[3])
 {
-    if (coloring_init(c, COLORING_PLAIN, NULL, 0.0, 0.0))
+    if (cgt_coloring_init(c, COLORING_PLAIN, NULL, 0.0, 0.0))
         return -1;
     set_entry(c, 0, srgb);
     return 0;
 }
 
 /* Types count from 1, elements from 0 for none. Beyond the palette they begin again. */
-uint16_t coloring_entry_of_kind(const coloring *c, uint32_t kind)
+uint16_t cgt_coloring_entry_of_kind(const coloring *c, uint32_t kind)
 {
     const uint32_t from = c->by == COLORING_ELEMENT ? 0 : COLORING_STEPS - 1;
     return (uint16_t)((kind % COLORING_STEPS + from) % COLORING_STEPS);
 }
 
-void coloring_set_kind(coloring *c, uint32_t kind, const float srgb[3])
+void cgt_coloring_set_kind(coloring *c, uint32_t kind, const float srgb[3])
 {
-    set_entry(c, coloring_entry_of_kind(c, kind), srgb);
+    set_entry(c, cgt_coloring_entry_of_kind(c, kind), srgb);
 }
 
-void coloring_free(coloring *c)
+void cgt_coloring_free(coloring *c)
 {
     free(c->index);
     c->index = NULL;
@@ -108,11 +108,11 @@ static uint16_t entry_of(const coloring *c, double value)
 static uint16_t entry_at(const coloring *c, const cgt_trajectory_frame *frame, const float *speeds, uint32_t i)
 {
     switch (c->by) {
-    case COLORING_TYPE: return frame->type ? coloring_entry_of_kind(c, frame->type[i]) : 0;
+    case COLORING_TYPE: return frame->type ? cgt_coloring_entry_of_kind(c, frame->type[i]) : 0;
     case COLORING_ID: return entry_of(c, (double)(frame->id ? frame->id[i] : i));
     case COLORING_SPEED: return speeds ? entry_of(c, (double)speeds[i]) : COLORING_UNKNOWN;
     case COLORING_HEIGHT: return entry_of(c, (double)frame_place(frame, i)[c->axis] + frame->origin[c->axis]);
-    case COLORING_ELEMENT: return frame->element ? coloring_entry_of_kind(c, frame->element[i]) : 0;
+    case COLORING_ELEMENT: return frame->element ? cgt_coloring_entry_of_kind(c, frame->element[i]) : 0;
     case COLORING_AUTO:
     case COLORING_VALUE:
     case COLORING_PLAIN: break;
@@ -126,13 +126,13 @@ static void apply_formula(coloring *c, uint32_t count)
     double values[BLOCK];
     for (uint32_t first = 0; first < count; first += BLOCK) {
         const uint32_t block = count - first < BLOCK ? count - first : BLOCK;
-        expression_values(c->formula, first, block, values);
+        cgt_expression_values(c->formula, first, block, values);
         for (uint32_t i = 0; i < block; i++)
             c->index[first + i] = entry_of(c, values[i]);
     }
 }
 
-int coloring_apply(coloring *c, const cgt_trajectory_frame *frame, const float *speeds)
+int cgt_coloring_apply(coloring *c, const cgt_trajectory_frame *frame, const float *speeds)
 {
     c->per_vertex = frame->kind == CGT_TRAJECTORY_TRIANGLES &&
                     (c->by == COLORING_SPEED || c->by == COLORING_HEIGHT || c->by == COLORING_VALUE);

@@ -33,45 +33,45 @@ enum {
 
 typedef struct coloring {
     coloring_by by;                     /* not AUTO */
-    int axis;                           /* of HEIGHT: 0, 1 or 2; coloring_init sets 2 */
+    int axis;                           /* of HEIGHT: 0, 1 or 2; cgt_coloring_init sets 2 */
     double min, max;                    /* values that get the map's first and last colour */
     int logarithmic;                    /* of VALUE and SPEED: 1: equal steps of colour are equal ratios; min > 0 */
     const expression *formula;          /* of VALUE; bound to the frame by the caller */
     float palette[COLORING_ENTRIES][3]; /* linear */
-    uint16_t *index;                    /* per sphere, triangle or vertex; never NULL after coloring_init */
-    int per_vertex;                     /* set by coloring_apply: index is per vertex, to be interpolated */
+    uint16_t *index;                    /* per sphere, triangle or vertex; never NULL after cgt_coloring_init */
+    int per_vertex;                     /* set by cgt_coloring_apply: index is per vertex, to be interpolated */
     size_t capacity;
 } coloring;
 
 /* Fills the palette. map: NULL for the first one; types have colours of their own. max may equal min. Returns 0, or
  * -1 where there is no memory. */
-int coloring_init(coloring *c, coloring_by by, const cgt_colormap *map, double min, double max);
+int cgt_coloring_init(coloring *c, coloring_by by, const cgt_colormap *map, double min, double max);
 
 /* The same for PLAIN: the one colour, in sRGB from 0 to 1. */
-int coloring_init_plain(coloring *c, const float srgb[3]);
-void coloring_free(coloring *c);
+int cgt_coloring_init_plain(coloring *c, const float srgb[3]);
+void cgt_coloring_free(coloring *c);
 
 /* The palette entry of a type, or of an element by its atomic number, where by is TYPE or ELEMENT. */
-uint16_t coloring_entry_of_kind(const coloring *c, uint32_t kind);
+uint16_t cgt_coloring_entry_of_kind(const coloring *c, uint32_t kind);
 
 /* Gives a type, or an element by its atomic number, a colour of its own, in sRGB from 0 to 1. */
-void coloring_set_kind(coloring *c, uint32_t kind, const float srgb[3]);
+void cgt_coloring_set_kind(coloring *c, uint32_t kind, const float srgb[3]);
 
 /* Sets index and per_vertex for a frame: speed and height of triangles are those of their vertices. speeds: those of
- * speed_next; NULL unless by is COLORING_SPEED. Returns 0, or -1 where there is no memory. */
-int coloring_apply(coloring *c, const cgt_trajectory_frame *frame, const float *speeds);
+ * cgt_speed_next; NULL unless by is COLORING_SPEED. Returns 0, or -1 where there is no memory. */
+int cgt_coloring_apply(coloring *c, const cgt_trajectory_frame *frame, const float *speeds);
 
-/* ---- Where nobody says what the colours show (coloring_choose.c) ---- */
+/* ---- Where nobody says what the colours show (cgt_coloring_choose.c) ---- */
 
 /* Whether spheres jump by most of the extent in one frame, as through the boundary of a box that the file does not
  * tell. */
-int coloring_has_jumps(const survey *s);
+int cgt_coloring_has_jumps(const survey *s);
 
 /* What the colours of a surveyed run show. */
-coloring_by coloring_choose(const survey *s);
+coloring_by cgt_coloring_choose(const survey *s);
 
 /* The values at the ends of the map; they stay as they are where the survey knows of none. axis: that points up. */
-void coloring_choose_range(const survey *s, coloring_by by, int axis, int logarithmic, const double origin[3],
-                           double *min, double *max);
+void cgt_coloring_choose_range(const survey *s, coloring_by by, int axis, int logarithmic, const double origin[3],
+                               double *min, double *max);
 
 #endif

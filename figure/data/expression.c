@@ -358,7 +358,7 @@ static void parse_or(parser *p)
     parse_level(p, parse_and, rows);
 }
 
-expression *expression_parse(const char *text, char *error, size_t error_size)
+expression *cgt_expression_parse(const char *text, char *error, size_t error_size)
 {
     expression *e = calloc(1, sizeof *e);
     if (!e) {
@@ -376,15 +376,15 @@ expression *expression_parse(const char *text, char *error, size_t error_size)
     return NULL;
 }
 
-void expression_free(expression *e) { free(e); }
+void cgt_expression_free(expression *e) { free(e); }
 
-const char *const *expression_names(const expression *e, size_t *count)
+const char *const *cgt_expression_names(const expression *e, size_t *count)
 {
     *count = e->name_count;
     return e->names;
 }
 
-int expression_uses(const expression *e, const char *name)
+int cgt_expression_uses(const expression *e, const char *name)
 {
     for (uint32_t i = 0; i < e->name_count; i++)
         if (strcmp(e->names[i], name) == 0)

@@ -23,21 +23,21 @@
 typedef struct expression expression;
 
 /* Parses a formula. Returns NULL with a sentence in error that shows where it fails. */
-expression *expression_parse(const char *text, char *error, size_t error_size);
-void expression_free(expression *e); /* NULL is ignored */
+expression *cgt_expression_parse(const char *text, char *error, size_t error_size);
+void cgt_expression_free(expression *e); /* NULL is ignored */
 
 /* The names in it that are no functions or constants, each once; valid as long as e. */
-const char *const *expression_names(const expression *e, size_t *count);
+const char *const *cgt_expression_names(const expression *e, size_t *count);
 
 /* Whether the formula uses this name. */
-int expression_uses(const expression *e, const char *name);
+int cgt_expression_uses(const expression *e, const char *name);
 
 /* Binds the names to a frame. speed: one for each sphere or vertex, NULL where they are not known. Returns 0, or -1
  * with a sentence that tells which name the frame does not have, and which it has, or which word does not fit. */
-int expression_bind(expression *e, const cgt_trajectory_frame *frame, const float *speed, char *error,
-                    size_t error_size);
+int cgt_expression_bind(expression *e, const cgt_trajectory_frame *frame, const float *speed, char *error,
+                        size_t error_size);
 
 /* Values of the bound frame's spheres or vertices from `first` on. */
-void expression_values(const expression *e, uint32_t first, uint32_t count, double *values);
+void cgt_expression_values(const expression *e, uint32_t first, uint32_t count, double *values);
 
 #endif

@@ -177,8 +177,8 @@ static int check_numbers(const expression *e, const cgt_trajectory_frame *frame,
     return 0;
 }
 
-int expression_bind(expression *e, const cgt_trajectory_frame *frame, const float *speed, char *error,
-                    size_t error_size)
+int cgt_expression_bind(expression *e, const cgt_trajectory_frame *frame, const float *speed, char *error,
+                        size_t error_size)
 {
     for (uint32_t i = 0; i < e->name_count; i++)
         if (e->is_needed[i] && bind_name(e, i, frame, speed, error, error_size))
@@ -280,7 +280,7 @@ static void run_block(const expression *e, uint32_t first, uint32_t count, doubl
 }
 /* NOLINTEND(clang-analyzer-core.*) */
 
-void expression_values(const expression *e, uint32_t first, uint32_t count, double *values)
+void cgt_expression_values(const expression *e, uint32_t first, uint32_t count, double *values)
 {
     double stack[EXPRESSION_STACK][BLOCK];
     for (uint32_t done = 0; done < count; done += BLOCK) {

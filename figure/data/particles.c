@@ -11,7 +11,7 @@
 
 enum { BLOCK = 256 };
 
-int particle_rules_are_empty(const particle_rules *r)
+int cgt_particle_rules_are_empty(const particle_rules *r)
 {
     return !r->show && !r->radius && r->radius_scale == 1.0f && !r->radius_count &&
            r->images[0] * r->images[1] * r->images[2] == 1;
@@ -25,7 +25,7 @@ static int reserve(particles *p, uint64_t count, char *error, size_t error_size)
     }
     if (count <= p->capacity && p->xyzr)
         return 0;
-    particles_free(p);
+    cgt_particles_free(p);
     const size_t n = count ? (size_t)count : 1;
     p->xyzr = malloc(n * 4 * sizeof *p->xyzr);
     p->index = malloc(n * sizeof *p->index);
@@ -34,12 +34,12 @@ static int reserve(particles *p, uint64_t count, char *error, size_t error_size)
         p->capacity = n;
         return 0;
     }
-    particles_free(p);
+    cgt_particles_free(p);
     snprintf(error, error_size, "out of memory for %llu spheres", (unsigned long long)count);
     return -1;
 }
 
-void particles_free(particles *p)
+void cgt_particles_free(particles *p)
 {
     free(p->xyzr);
     free(p->index);
@@ -60,13 +60,13 @@ static float radius_of(const particle_rules *r, const cgt_trajectory_frame *f, u
     return radius;
 }
 
-void particle_radii(const particle_rules *r, const cgt_trajectory_frame *f, uint32_t first, uint32_t count,
-                    float *radius)
+void cgt_particle_radii(const particle_rules *r, const cgt_trajectory_frame *f, uint32_t first, uint32_t count,
+                        float *radius)
 {
     double values[BLOCK];
     for (uint32_t k = 0; k < count; k++) {
         if (r->radius && k % BLOCK == 0)
-            expression_values(r->radius, first + k, count - k < BLOCK ? count - k : BLOCK, values);
+            cgt_expression_values(r->radius, first + k, count - k < BLOCK ? count - k : BLOCK, values);
         radius[k] = r->radius_scale * (r->radius ? (float)values[k % BLOCK] : radius_of(r, f, first + k));
     }
 }
@@ -78,8 +78,8 @@ static void select_block(particles *p, const particle_rules *r, const cgt_trajec
     double show[BLOCK];
     float radius[BLOCK];
     if (r->show)
-        expression_values(r->show, first, count, show);
-    particle_radii(r, f, first, count, radius);
+        cgt_expression_values(r->show, first, count, show);
+    cgt_particle_radii(r, f, first, count, radius);
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t i = first + k;
         float *to = p->xyzr + 4 * (size_t)p->count;
@@ -126,8 +126,8 @@ static int has_box(const cgt_trajectory_frame *f)
     return has;
 }
 
-int particles_select(particles *p, const particle_rules *r, const cgt_trajectory_frame *f, const uint16_t *index,
-                     char *error, size_t error_size)
+int cgt_particles_select(particles *p, const particle_rules *r, const cgt_trajectory_frame *f, const uint16_t *index,
+                         char *error, size_t error_size)
 {
     const uint32_t copies = r->images[0] * r->images[1] * r->images[2];
     if (copies > 1 && !has_box(f)) {

@@ -38,16 +38,16 @@ typedef struct particles {
 } particles;
 
 /* The radii of the spheres from `first` on, by the rules. */
-void particle_radii(const particle_rules *rules, const cgt_trajectory_frame *frame, uint32_t first, uint32_t count,
-                    float *radius);
+void cgt_particle_radii(const particle_rules *rules, const cgt_trajectory_frame *frame, uint32_t first, uint32_t count,
+                        float *radius);
 
 /* Whether the rules leave every frame as it is. */
-int particle_rules_are_empty(const particle_rules *rules);
+int cgt_particle_rules_are_empty(const particle_rules *rules);
 
 /* Applies the rules to a frame of spheres whose formulas are bound; index: palette entries of the frame's spheres.
  * Returns 0, or -1 with a sentence: images without a box, more than 2^31 spheres, no memory. */
-int particles_select(particles *p, const particle_rules *rules, const cgt_trajectory_frame *frame,
-                     const uint16_t *index, char *error, size_t error_size);
-void particles_free(particles *p);
+int cgt_particles_select(particles *p, const particle_rules *rules, const cgt_trajectory_frame *frame,
+                         const uint16_t *index, char *error, size_t error_size);
+void cgt_particles_free(particles *p);
 
 #endif

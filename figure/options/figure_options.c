@@ -17,7 +17,7 @@ static void set_default(float *value, float otherwise) { *value = *value < 0.0f 
 /* Puts the values of the style where none were given. */
 static void take_style(picture_options *o)
 {
-    const style_values *const s = style_get(o->style);
+    const style_values *const s = cgt_style_get(o->style);
     o->ambient = o->ambient < 0 && !s->ambient ? 0 : o->ambient;
     o->shadows = o->shadows < 0 ? s->shadows : o->shadows;
     o->light_samples = o->light_samples < 0 ? 8 : o->light_samples;
@@ -32,12 +32,12 @@ static void take_style(picture_options *o)
         memcpy(o->background, s->background, sizeof s->background);
 }
 
-int picture_options_have_overlay(const picture_options *o)
+int cgt_picture_options_have_overlay(const picture_options *o)
 {
     return o->title || o->time || o->bar || o->legend || o->axes;
 }
 
-int picture_options_need_drawing(const picture_options *o)
+int cgt_picture_options_need_drawing(const picture_options *o)
 {
     return o->style != STYLE_PLAIN || o->ambient || o->shadows || o->lamp_count || o->cue > 0.0f || o->outline > 0.0f ||
            o->transparent || o->own_light;
@@ -69,13 +69,13 @@ static void look_from(figure_options *o, int axis)
     }
 }
 
-void figure_options_axes(figure_options *o, cgt_trajectory_kind kind)
+void cgt_figure_options_axes(figure_options *o, cgt_trajectory_kind kind)
 {
     float *up = o->up, *view = o->view;
     if (is_zero(up)) {
         const int axis = kind == CGT_TRAJECTORY_TRIANGLES ? 1 : 2;
         up[axis] = 1.0f;
-        if (!is_zero(view) && camera_path_is_along(view, up)) {
+        if (!is_zero(view) && cgt_camera_path_is_along(view, up)) {
             up[axis] = 0.0f;
             up[3 - axis] = 1.0f;
         }
@@ -103,7 +103,7 @@ static int refuse(char *error, size_t size, const char *format, ...)
     return -1;
 }
 
-int figure_options_finish(figure_options *o, char *error, size_t size)
+int cgt_figure_options_finish(figure_options *o, char *error, size_t size)
 {
     o->floor.is_set |= o->floor.axis || o->floor.has_height || o->floor.has_place;
     if (o->floor.is_set && o->picture.shadows < 0)
@@ -121,14 +121,14 @@ int figure_options_finish(figure_options *o, char *error, size_t size)
         return refuse(error, size, "--view, --up, --fov and --zoom are for the automatic camera and exclude --camera");
     if (o->unwrap && o->whole)
         return refuse(error, size, "--unwrap and --whole exclude each other");
-    if (o->has_view && o->has_up && !o->side && camera_path_is_along(o->view, o->up))
+    if (o->has_view && o->has_up && !o->side && cgt_camera_path_is_along(o->view, o->up))
         return refuse(error, size, "--view: the direction must not be along the axis that points up");
     if (o->bounce.count && !o->bounce.is_set)
         return refuse(error, size, "--material is for --bounces");
     return 0;
 }
 
-void figure_options_init(figure_options *o)
+void cgt_figure_options_init(figure_options *o)
 {
     memset(o, 0, sizeof *o);
     cgt_camera_init(&o->camera.camera);
@@ -136,7 +136,7 @@ void figure_options_init(figure_options *o)
     o->height = 720;
     o->samples = 1;
     o->fov = 30.0f;
-    memcpy(o->plain, style_mesh_color, sizeof o->plain);
+    memcpy(o->plain, cgt_style_mesh_color, sizeof o->plain);
 
     picture_options *p = &o->picture;
     p->text_size = 0.03f;

@@ -149,7 +149,7 @@ typedef struct figure_options {
     int has_camera;
     camera_key camera;         /* where has_camera */
     float zoom;                /* of the automatic camera; 0: not given */
-    float view[3], up[3], fov; /* of the automatic camera; all zero: chosen by figure_options_axes */
+    float view[3], up[3], fov; /* of the automatic camera; all zero: chosen by cgt_figure_options_axes */
     view_side side;            /* in place of view */
     int has_view, has_up, has_fov;
     camera_keys keys; /* count 0: none; else has_camera, and camera is the first */
@@ -172,19 +172,19 @@ typedef struct figure_options {
 } figure_options;
 
 /* Fills in the defaults. */
-void figure_options_init(figure_options *o);
+void cgt_figure_options_init(figure_options *o);
 
 /* Puts in what belongs to others that are given, and checks what needs several. Returns 0, or -1 with a sentence. */
-int figure_options_finish(figure_options *o, char *error, size_t size);
+int cgt_figure_options_finish(figure_options *o, char *error, size_t size);
 
 /* Chooses up and view where no option does: up is z for spheres, as in simulators, and y for triangles, as
  * in modelling programs; another axis where that is the view. The view is from the side and slightly above. */
-void figure_options_axes(figure_options *o, cgt_trajectory_kind kind);
+void cgt_figure_options_axes(figure_options *o, cgt_trajectory_kind kind);
 
 /* Whether anything lies over the picture. */
-int picture_options_have_overlay(const picture_options *options);
+int cgt_picture_options_have_overlay(const picture_options *options);
 
 /* Whether the settings need more than shading in the camera's tiles. */
-int picture_options_need_drawing(const picture_options *options);
+int cgt_picture_options_need_drawing(const picture_options *options);
 
 #endif

@@ -43,7 +43,7 @@ static int scan_u64(const char **text, uint64_t *value)
     return 0;
 }
 
-int program_parse_u64(const char *text, uint64_t min, uint64_t max, uint64_t *value, char *error, size_t error_size)
+int cgt_read_u64(const char *text, uint64_t min, uint64_t max, uint64_t *value, char *error, size_t error_size)
 {
     const char *p = text;
     uint64_t number = 0;
@@ -53,10 +53,10 @@ int program_parse_u64(const char *text, uint64_t min, uint64_t max, uint64_t *va
     return 0;
 }
 
-int program_parse_u32(const char *text, uint32_t min, uint32_t max, uint32_t *value, char *error, size_t error_size)
+int cgt_read_u32(const char *text, uint32_t min, uint32_t max, uint32_t *value, char *error, size_t error_size)
 {
     uint64_t number = 0;
-    if (program_parse_u64(text, min, max, &number, error, error_size))
+    if (cgt_read_u64(text, min, max, &number, error, error_size))
         return -1;
     *value = (uint32_t)number;
     return 0;
@@ -77,7 +77,7 @@ static int scan_float(const char **text, float *value)
     return 0;
 }
 
-int program_parse_float(const char *text, float min, float max, float *value, char *error, size_t error_size)
+int cgt_read_float(const char *text, float min, float max, float *value, char *error, size_t error_size)
 {
     const char *p = text;
     float number;
@@ -87,7 +87,7 @@ int program_parse_float(const char *text, float min, float max, float *value, ch
     return 0;
 }
 
-int program_parse_floats(const char *text, size_t count, float *values, char *error, size_t error_size)
+int cgt_read_floats(const char *text, size_t count, float *values, char *error, size_t error_size)
 {
     float numbers[16];
     const char *p = text;
@@ -102,18 +102,18 @@ int program_parse_floats(const char *text, size_t count, float *values, char *er
     return 0;
 }
 
-int program_parse_doubles(const char *text, size_t count, double *values, char *error, size_t error_size)
+int cgt_read_doubles(const char *text, size_t count, double *values, char *error, size_t error_size)
 {
     float rounded[16];
     char *end;
-    if (program_parse_floats(text, count, rounded, error, error_size))
+    if (cgt_read_floats(text, count, rounded, error, error_size))
         return -1;
     for (size_t i = 0; i < count; i++, text = end + 1)
         values[i] = strtod(text, &end);
     return 0;
 }
 
-int program_parse_size(const char *text, uint32_t *width, uint32_t *height, char *error, size_t error_size)
+int cgt_read_size(const char *text, uint32_t *width, uint32_t *height, char *error, size_t error_size)
 {
     const char *p = text;
     uint64_t w = 0, h = 0;
@@ -142,12 +142,12 @@ static int up_is_parallel(const float view[3], const float up[3])
     return !(length3(c) > 1e-6 * length3(v) * length3(u));
 }
 
-int program_parse_far_camera(const char *text, cgt_camera *camera, double eye_at[3], double target_at[3], char *error,
-                             size_t error_size)
+int cgt_read_far_camera(const char *text, cgt_camera *camera, double eye_at[3], double target_at[3], char *error,
+                        size_t error_size)
 {
     float v[10] = {0};
     double d[10];
-    if (program_parse_floats(text, 10, v, error, error_size) || program_parse_doubles(text, 10, d, error, error_size))
+    if (cgt_read_floats(text, 10, v, error, error_size) || cgt_read_doubles(text, 10, d, error, error_size))
         return refuse(error, error_size, "'%.200s' is not ex,ey,ez,tx,ty,tz,ux,uy,uz,fov: ten numbers", text);
     const float *const eye = v, *const target = v + 3, *const up = v + 6;
     const float view[3] = {(float)(d[3] - d[0]), (float)(d[4] - d[1]), (float)(d[5] - d[2])};
@@ -167,11 +167,11 @@ int program_parse_far_camera(const char *text, cgt_camera *camera, double eye_at
     return 0;
 }
 
-int program_parse_camera(const char *text, cgt_camera *camera, char *error, size_t error_size)
+int cgt_read_camera(const char *text, cgt_camera *camera, char *error, size_t error_size)
 {
     cgt_camera parsed = *camera;
     double eye[3], target[3];
-    if (program_parse_far_camera(text, &parsed, eye, target, error, error_size))
+    if (cgt_read_far_camera(text, &parsed, eye, target, error, error_size))
         return -1;
     if (memcmp(parsed.eye, parsed.target, sizeof parsed.eye) == 0)
         return refuse(error, error_size, "eye and target are the same point in single precision");
@@ -181,7 +181,7 @@ int program_parse_camera(const char *text, cgt_camera *camera, char *error, size
 
 /* ---- Words -------------------------------------------------------------------------------------------------- */
 
-int option_find_word(const char *list, const char *word)
+int cgt_find_word(const char *list, const char *word)
 {
     static const char separators[] = ", ";
     const size_t length = strlen(word);

@@ -13,14 +13,14 @@
 /* ---- Which spheres ------------------------------------------------------------------------------------------- */
 
 /* Adds a condition to those that a sphere must meet. */
-int add_condition(const char *text, void *to, char *error, size_t size)
+int cgt_parse_show(const char *text, void *to, char *error, size_t size)
 {
     particle_options *o = to;
-    expression *formula = expression_parse(text, error, size);
+    expression *formula = cgt_expression_parse(text, error, size);
     const size_t used = strlen(o->show);
     if (!formula)
         return -1;
-    expression_free(formula);
+    cgt_expression_free(formula);
     const int length = snprintf(o->show + used, sizeof o->show - used, "%s(%s)", used ? " && " : "", text);
     if (length < 0 || (size_t)length >= sizeof o->show - used) {
         o->show[used] = '\0';
@@ -44,47 +44,47 @@ static int hide_kinds(const char *text, void *to, char *error, size_t size)
             memcpy(name, at, length);
             name[length] = '\0';
             const uint32_t element = element_named(name);
-            if (!element && program_parse_u32(name, 0, UINT32_MAX, &kind, error, size))
+            if (!element && cgt_read_u32(name, 0, UINT32_MAX, &kind, error, size))
                 return 0;
             snprintf(condition, sizeof condition, element ? "element != %u" : "type != %u", element ? element : kind);
-            if (adds && add_condition(condition, to, error, size))
+            if (adds && cgt_parse_show(condition, to, error, size))
                 return -1;
         }
     return 1;
 }
 
-int parse_hide(const char *text, void *to, char *error, size_t size)
+int cgt_parse_hide(const char *text, void *to, char *error, size_t size)
 {
     char condition[2048];
     const int done = hide_kinds(text, to, error, size);
     if (done)
         return done > 0 ? 0 : -1;
-    expression *const formula = expression_parse(text, error, size); /* so that an error shows what was given */
+    expression *const formula = cgt_expression_parse(text, error, size); /* so that an error shows what was given */
     if (!formula)
         return -1;
-    expression_free(formula);
+    cgt_expression_free(formula);
     if (snprintf(condition, sizeof condition, "!(%s)", text) >= (int)sizeof condition) {
         snprintf(error, size, "the formula is too long");
         return -1;
     }
-    return add_condition(condition, to, error, size);
+    return cgt_parse_show(condition, to, error, size);
 }
 
-int parse_slice(const char *text, void *to, char *error, size_t size)
+int cgt_parse_slice(const char *text, void *to, char *error, size_t size)
 {
     double v[4];
     char condition[256];
-    if (program_parse_doubles(text, 4, v, error, size))
+    if (cgt_read_doubles(text, 4, v, error, size))
         return -1;
     snprintf(condition, sizeof condition, "%.17g * x + %.17g * y + %.17g * z <= %.17g", v[0], v[1], v[2], v[3]);
-    return add_condition(condition, to, error, size);
+    return cgt_parse_show(condition, to, error, size);
 }
 
-int parse_cut(const char *text, void *to, char *error, size_t size)
+int cgt_parse_cut(const char *text, void *to, char *error, size_t size)
 {
     double v[6];
     char condition[256];
-    if (program_parse_doubles(text, 6, v, error, size))
+    if (cgt_read_doubles(text, 6, v, error, size))
         return -1;
     if (v[0] > v[3] || v[1] > v[4] || v[2] > v[5]) {
         snprintf(error, size, "\"%s\": the first corner is not below the second", text);
@@ -93,25 +93,25 @@ int parse_cut(const char *text, void *to, char *error, size_t size)
     snprintf(condition, sizeof condition,
              "x >= %.17g && y >= %.17g && z >= %.17g && x <= %.17g && y <= %.17g && z <= %.17g", v[0], v[1], v[2], v[3],
              v[4], v[5]);
-    return add_condition(condition, to, error, size);
+    return cgt_parse_show(condition, to, error, size);
 }
 
 /* Checks a formula that is parsed again where it is used. */
-int parse_formula(const char *text, void *to, char *error, size_t size)
+int cgt_parse_formula(const char *text, void *to, char *error, size_t size)
 {
-    expression *e = expression_parse(text, error, size);
+    expression *e = cgt_expression_parse(text, error, size);
     if (!e)
         return -1;
-    expression_free(e);
+    cgt_expression_free(e);
     *(const char **)to = text;
     return 0;
 }
 
-int parse_images(const char *text, void *to, char *error, size_t size)
+int cgt_parse_images(const char *text, void *to, char *error, size_t size)
 {
     uint32_t *images = to;
     float v[3];
-    if (program_parse_floats(text, 3, v, error, size))
+    if (cgt_read_floats(text, 3, v, error, size))
         return -1;
     for (int c = 0; c < 3; c++)
         if (!(v[c] >= 1.0f && v[c] <= 100.0f) || v[c] != (float)(uint32_t)v[c]) {
@@ -123,17 +123,17 @@ int parse_images(const char *text, void *to, char *error, size_t size)
     return 0;
 }
 
-int parse_floor(const char *text, void *to, char *error, size_t size)
+int cgt_parse_floor(const char *text, void *to, char *error, size_t size)
 {
     floor_options *o = to;
     o->has_color = 1;
-    return option_parse_color(text, o->color, error, size);
+    return cgt_parse_color(text, o->color, error, size);
 }
 
-int parse_floor_place(const char *text, void *to, char *error, size_t size)
+int cgt_parse_floor_place(const char *text, void *to, char *error, size_t size)
 {
     const double *const place = to;
-    if (program_parse_doubles(text, 4, to, error, size))
+    if (cgt_read_doubles(text, 4, to, error, size))
         return -1;
     if (place[3] > 0.0)
         return 0;
@@ -148,7 +148,7 @@ static int parse_type(const char *name, const char *nor, int *is_element, uint32
 {
     *is_element = name[0] < '0' || name[0] > '9';
     if (!*is_element)
-        return program_parse_u32(name, 0, UINT32_MAX, kind, error, size);
+        return cgt_read_u32(name, 0, UINT32_MAX, kind, error, size);
     *kind = element_named(name);
     if (*kind)
         return 0;
@@ -159,7 +159,7 @@ static int parse_type(const char *name, const char *nor, int *is_element, uint32
 /* TYPE=VALUE: copies the type, of at most 31 characters. Returns the value, or NULL with a sentence. */
 static const char *split_type(const char *text, const char *form, char name[32], char *error, size_t size)
 {
-    const char *value = option_split(text, '=', name, 32);
+    const char *value = cgt_split(text, '=', name, 32);
     if (value && *name)
         return value;
     snprintf(error, size, "\"%s\" is not of the form %s", text, form);
@@ -182,24 +182,24 @@ static const char *parse_kind(const char *text, particle_kind *kind, uint32_t co
     return value && parse_type(name, "", &kind->is_element, &kind->kind, error, size) == 0 ? value : NULL;
 }
 
-int parse_type_radius(const char *text, void *to, char *error, size_t size)
+int cgt_parse_type_radius(const char *text, void *to, char *error, size_t size)
 {
     particle_options *o = to;
     particle_kind kind;
     const char *value = parse_kind(text, &kind, o->radius_count, error, size);
-    if (!value || program_parse_float(value, 0.0f, 1e30f, &kind.value[0], error, size))
+    if (!value || cgt_read_float(value, 0.0f, 1e30f, &kind.value[0], error, size))
         return -1;
     o->radii[o->radius_count++] = kind;
     return 0;
 }
 
-int parse_type_color(const char *text, void *to, char *error, size_t size)
+int cgt_parse_type_color(const char *text, void *to, char *error, size_t size)
 {
     particle_options *o = to;
     particle_kind kind;
     uint8_t rgb[3];
     const char *value = parse_kind(text, &kind, o->color_count, error, size);
-    if (!value || option_parse_color(value, rgb, error, size))
+    if (!value || cgt_parse_color(value, rgb, error, size))
         return -1;
     for (int c = 0; c < 3; c++)
         kind.value[c] = (float)rgb[c] / 255.0f;
@@ -207,7 +207,7 @@ int parse_type_color(const char *text, void *to, char *error, size_t size)
     return 0;
 }
 
-int parse_type_name(const char *text, void *to, char *error, size_t size)
+int cgt_parse_type_name(const char *text, void *to, char *error, size_t size)
 {
     particle_options *o = to;
     particle_name name;
@@ -224,14 +224,14 @@ int parse_type_name(const char *text, void *to, char *error, size_t size)
 static int parse_glass(const char *text, bounce_material *m, char *error, size_t size)
 {
     char index[32];
-    const char *priority = option_split(text, ':', index, sizeof index);
+    const char *priority = cgt_split(text, ':', index, sizeof index);
     if (!priority && (strchr(text, ':') || strlen(text) >= sizeof index)) {
         snprintf(error, size, "the index of refraction \"%s\" is too long", text);
         return -1;
     }
-    if (program_parse_float(priority ? index : text, 1.0f, 100.0f, &m->index, error, size))
+    if (cgt_read_float(priority ? index : text, 1.0f, 100.0f, &m->index, error, size))
         return -1;
-    return priority ? program_parse_u32(priority, 0, UINT8_MAX, &m->priority, error, size) : 0;
+    return priority ? cgt_read_u32(priority, 0, UINT8_MAX, &m->priority, error, size) : 0;
 }
 
 static int parse_made_of(const char *text, bounce_material *m, char *error, size_t size)
@@ -251,7 +251,7 @@ static int parse_made_of(const char *text, bounce_material *m, char *error, size
     return 0;
 }
 
-int parse_material(const char *text, void *to, char *error, size_t size)
+int cgt_parse_material(const char *text, void *to, char *error, size_t size)
 {
     bounce_options *o = to;
     bounce_material m = {0};

@@ -13,16 +13,16 @@
 
 /* ---- Pictures ------------------------------------------------------------------------------------------------ */
 
-int parse_size(const char *text, void *to, char *error, size_t size)
+int cgt_parse_size(const char *text, void *to, char *error, size_t size)
 {
     figure_options *o = to;
-    return program_parse_size(text, &o->width, &o->height, error, size);
+    return cgt_read_size(text, &o->width, &o->height, error, size);
 }
 
-int parse_samples(const char *text, void *to, char *error, size_t size)
+int cgt_parse_samples(const char *text, void *to, char *error, size_t size)
 {
     uint32_t n;
-    if (program_parse_u32(text, 1, 4, &n, error, size))
+    if (cgt_read_u32(text, 1, 4, &n, error, size))
         return -1;
     if (n == 3) {
         snprintf(error, size, "3 is not 1, 2 or 4");
@@ -34,39 +34,39 @@ int parse_samples(const char *text, void *to, char *error, size_t size)
 
 /* ---- Camera -------------------------------------------------------------------------------------------------- */
 
-int parse_camera(const char *text, void *to, char *error, size_t size)
+int cgt_parse_camera(const char *text, void *to, char *error, size_t size)
 {
     camera_key *const key = to;
-    return program_parse_far_camera(text, &key->camera, key->eye, key->target, error, size);
+    return cgt_read_far_camera(text, &key->camera, key->eye, key->target, error, size);
 }
 
-int parse_keys(const char *text, void *to, char *error, size_t size)
+int cgt_parse_keys(const char *text, void *to, char *error, size_t size)
 {
     figure_options *o = to;
-    camera_keys_free(&o->keys);
-    if (camera_keys_read(&o->keys, text, error, size))
+    cgt_camera_keys_free(&o->keys);
+    if (cgt_camera_keys_read(&o->keys, text, error, size))
         return -1;
     o->has_camera = 1;
     o->camera = o->keys.key[0];
     return 0;
 }
 
-int parse_view(const char *text, void *to, char *error, size_t size)
+int cgt_parse_view(const char *text, void *to, char *error, size_t size)
 {
     figure_options *o = to;
-    const int side = option_find_word(VIEW_SIDES, text);
+    const int side = cgt_find_word(VIEW_SIDES, text);
     o->side = side < 0 ? VIEW_BY_DIRECTION : (view_side)(VIEW_FRONT + side);
     memset(o->view, 0, sizeof o->view);
-    return side < 0 ? option_parse_direction(text, o->view, error, size) : 0;
+    return side < 0 ? cgt_parse_direction(text, o->view, error, size) : 0;
 }
 
 /* ---- Colours and light --------------------------------------------------------------------------------------- */
 
-int parse_range(const char *text, void *to, char *error, size_t size)
+int cgt_parse_range(const char *text, void *to, char *error, size_t size)
 {
     figure_options *o = to;
     double v[2];
-    if (program_parse_doubles(text, 2, v, error, size))
+    if (cgt_read_doubles(text, 2, v, error, size))
         return -1;
     if (v[0] > v[1]) {
         snprintf(error, size, "\"%s\": the first value is above the second", text);
@@ -78,7 +78,7 @@ int parse_range(const char *text, void *to, char *error, size_t size)
     return 0;
 }
 
-int parse_coloring(const char *text, void *to, char *error, size_t size)
+int cgt_parse_coloring(const char *text, void *to, char *error, size_t size)
 {
     figure_options *o = to;
     static const char *const names[] = {"auto", "type", "id", "speed", "height", "element"};
@@ -90,20 +90,20 @@ int parse_coloring(const char *text, void *to, char *error, size_t size)
             o->by = values[i];
             return 0;
         }
-    if (option_is_color(text)) {
-        if (option_parse_color(text, rgb, error, size))
+    if (cgt_is_color(text)) {
+        if (cgt_parse_color(text, rgb, error, size))
             return -1;
         o->by = COLORING_PLAIN;
         for (int c = 0; c < 3; c++)
             o->plain[c] = (float)rgb[c] / 255.0f;
         return 0;
     }
-    expression *formula = expression_parse(text, error, size);
+    expression *formula = cgt_expression_parse(text, error, size);
     size_t columns = 0;
     if (!formula)
         return -1;
-    expression_names(formula, &columns);
-    expression_free(formula);
+    cgt_expression_names(formula, &columns);
+    cgt_expression_free(formula);
     if (!columns) {
         snprintf(error, size, "\"%s\" is neither a colour, as RRGGBB, nor a formula over columns", text);
         return -1;
@@ -113,7 +113,7 @@ int parse_coloring(const char *text, void *to, char *error, size_t size)
     return 0;
 }
 
-int parse_colormap(const char *text, void *to, char *error, size_t size)
+int cgt_parse_colormap(const char *text, void *to, char *error, size_t size)
 {
     const cgt_colormap *found = cgt_find_colormap(text);
     if (!found) {
@@ -143,12 +143,12 @@ static int add_lamp(const char *text, cgt_light_kind kind, picture_options *o, c
     for (char *c = numbers; *c; c++)
         if (*c == ',' && ++commas == 4) {
             *c = '\0';
-            if (option_parse_color(c + 1, rgb, error, size))
+            if (cgt_parse_color(c + 1, rgb, error, size))
                 return -1;
             break;
         }
     char *after = numbers;
-    if (option_parse_numbers(numbers, 3, 4, v, &count, error, size))
+    if (cgt_read_numbers(numbers, 3, 4, v, &count, error, size))
         return -1;
     if (v[3] < 0.0f || v[3] > 100.0f || (kind == CGT_LIGHT_DIRECTIONAL && !v[0] && !v[1] && !v[2])) {
         snprintf(error, size, "\"%s\": a strength is 0 to 100, and 0,0,0 is no direction", text);
@@ -165,12 +165,12 @@ static int add_lamp(const char *text, cgt_light_kind kind, picture_options *o, c
     return 0;
 }
 
-int parse_sun(const char *text, void *to, char *error, size_t size)
+int cgt_parse_sun(const char *text, void *to, char *error, size_t size)
 {
     return add_lamp(text, CGT_LIGHT_DIRECTIONAL, to, error, size);
 }
 
-int parse_lamp(const char *text, void *to, char *error, size_t size)
+int cgt_parse_lamp(const char *text, void *to, char *error, size_t size)
 {
     return add_lamp(text, CGT_LIGHT_POINT, to, error, size);
 }

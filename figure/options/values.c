@@ -10,10 +10,10 @@
 
 #include "options/numbers.h"
 
-int option_parse_direction(const char *text, void *to, char *error, size_t error_size)
+int cgt_parse_direction(const char *text, void *to, char *error, size_t error_size)
 {
     float v[3];
-    if (program_parse_floats(text, 3, v, error, error_size))
+    if (cgt_read_floats(text, 3, v, error, error_size))
         return -1;
     if (v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f) {
         snprintf(error, error_size, "0,0,0 is no direction");
@@ -23,7 +23,7 @@ int option_parse_direction(const char *text, void *to, char *error, size_t error
     return 0;
 }
 
-int option_parse_axis(const char *text, void *to, char *error, size_t error_size)
+int cgt_parse_axis(const char *text, void *to, char *error, size_t error_size)
 {
     float *axis = to;
     if (strlen(text) != 1 || *text < 'x' || *text > 'z') {
@@ -56,9 +56,9 @@ static const char *hexadecimal(const char *text)
     return strlen(text) == 6 && strspn(text, "0123456789abcdefABCDEF") == 6 ? text : NULL;
 }
 
-int option_is_color(const char *text) { return hexadecimal(text) != NULL; }
+int cgt_is_color(const char *text) { return hexadecimal(text) != NULL; }
 
-int option_parse_color(const char *text, void *to, char *error, size_t error_size)
+int cgt_parse_color(const char *text, void *to, char *error, size_t error_size)
 {
     uint8_t *rgb = to;
     const char *digits = hexadecimal(text);
@@ -72,8 +72,8 @@ int option_parse_color(const char *text, void *to, char *error, size_t error_siz
     return 0;
 }
 
-int option_parse_numbers(const char *text, size_t least, size_t most, float *values, size_t *count, char *error,
-                         size_t error_size)
+int cgt_read_numbers(const char *text, size_t least, size_t most, float *values, size_t *count, char *error,
+                     size_t error_size)
 {
     size_t numbers = 1;
     for (const char *c = text; *c; c++)
@@ -82,13 +82,13 @@ int option_parse_numbers(const char *text, size_t least, size_t most, float *val
         snprintf(error, error_size, "\"%s\" has %zu numbers, not %zu to %zu", text, numbers, least, most);
         return -1;
     }
-    if (program_parse_floats(text, numbers, values, error, error_size))
+    if (cgt_read_floats(text, numbers, values, error, error_size))
         return -1;
     *count = numbers;
     return 0;
 }
 
-const char *option_split(const char *text, char mark, char *first, size_t room)
+const char *cgt_split(const char *text, char mark, char *first, size_t room)
 {
     const char *at = strchr(text, mark);
     if (!at || (size_t)(at - text) >= room)

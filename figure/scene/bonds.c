@@ -19,7 +19,7 @@ static void add_bond(sticks *s, const bond_rules *r, const particles *p, uint32_
     const float *pa = p->xyzr + 4 * (size_t)a, *pb = p->xyzr + 4 * (size_t)b;
     const uint16_t ea = r->entry < 0 ? p->index[a] : (uint16_t)r->entry;
     const uint16_t eb = r->entry < 0 ? p->index[b] : (uint16_t)r->entry;
-    sticks_add(s, pa, pb, sticks_visible(s, pa, sticks_visible(s, pb, r->radius)), ea, eb);
+    cgt_sticks_add(s, pa, pb, cgt_sticks_visible(s, pa, cgt_sticks_visible(s, pb, r->radius)), ea, eb);
 }
 
 static float square_between(const float *a, const float *b)
@@ -47,7 +47,7 @@ static uint32_t image_across(const uint32_t images[3], uint32_t from, const doub
 static int add_file_bonds(sticks *s, const bond_rules *r, const cgt_trajectory_frame *f, const particles *p,
                           char *error, size_t error_size)
 {
-    const periodic_box box = periodic_box_of(f);
+    const periodic_box box = cgt_periodic_box_of(f);
     const uint32_t copies = r->images[0] * r->images[1] * r->images[2], originals = p->count / copies;
     uint32_t *place = malloc(((size_t)f->count + 1) * sizeof *place);
     if (!place) {
@@ -63,7 +63,7 @@ static int add_file_bonds(sticks *s, const bond_rules *r, const cgt_trajectory_f
         double count[3];
         if (a == UINT32_MAX || b == UINT32_MAX)
             continue;
-        periodic_box_crossed(&box, p->xyzr + 4 * (size_t)a, p->xyzr + 4 * (size_t)b, count);
+        cgt_periodic_box_crossed(&box, p->xyzr + 4 * (size_t)a, p->xyzr + 4 * (size_t)b, count);
         for (uint32_t image = 0; image < copies; image++) {
             const uint32_t other = image_across(r->images, image, count);
             if (other != UINT32_MAX)
@@ -203,8 +203,8 @@ static int add_near_bonds(sticks *s, const bond_rules *r, const near_rule *n, co
     return enough ? 0 : -1;
 }
 
-int figures_add_bonds(sticks *s, const bond_rules *r, const cgt_trajectory_frame *f, const particles *p, char *error,
-                      size_t error_size)
+int cgt_shapes_add_bonds(sticks *s, const bond_rules *r, const cgt_trajectory_frame *f, const particles *p, char *error,
+                         size_t error_size)
 {
     const near_rule given = {.longest = r->distance};
     if (r->distance > 0.0f)

@@ -163,7 +163,7 @@ static int set_triangles(cgt_figure *figure)
     figure_bounce *b = figure->bounce;
     const cgt_trajectory_frame *f = figure->frame;
     const bounce_options *o = &figure->options.bounce;
-    const int rule = bounce_rule_of(o, NULL, NULL);
+    const int rule = cgt_bounce_rule_of(o, NULL, NULL);
     const int glass = rule >= 0 && o->materials[rule].material == CGT_MATERIAL_GLASS;
     if (glass && find_bodies(figure))
         return -1;

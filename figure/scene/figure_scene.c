@@ -12,7 +12,7 @@
 
 #include "figure_state.h"
 
-int bounce_rule_of(const bounce_options *o, const uint32_t *type, const uint8_t *element)
+int cgt_bounce_rule_of(const bounce_options *o, const uint32_t *type, const uint8_t *element)
 {
     int named = -1, all = -1;
     for (uint32_t k = 0; k < o->count; k++) {
@@ -27,12 +27,13 @@ int bounce_rule_of(const bounce_options *o, const uint32_t *type, const uint8_t 
 
 /* ---- Before the first frame --------------------------------------------------------------------------------- */
 
-static int parse_formula(cgt_figure *figure, const char *text, expression **formula)
+static int open_formula(cgt_figure *figure, const char *text, expression **formula)
 {
     if (!text || !*text)
         return 0;
-    *formula = expression_parse(text, figure->message, sizeof figure->message);
-    return *formula ? frame_sequence_bind(&figure->sequence, *formula, figure->message, sizeof figure->message) : -1;
+    *formula = cgt_expression_parse(text, figure->message, sizeof figure->message);
+    return *formula ? cgt_frame_sequence_bind(&figure->sequence, *formula, figure->message, sizeof figure->message)
+                    : -1;
 }
 
 /* Three formulas with commas between them, outside of parentheses. */
@@ -60,7 +61,7 @@ static int parse_arrows(cgt_figure *figure, const char *text)
         return -1;
     }
     for (int i = 0; i < 3; i++)
-        if (parse_formula(figure, *part[i] ? part[i] : "?", &figure->parts.arrow[i]))
+        if (open_formula(figure, *part[i] ? part[i] : "?", &figure->parts.arrow[i]))
             return -1;
     return 0;
 }
@@ -70,7 +71,7 @@ int cgt_figure_scene_open(cgt_figure *figure)
     const particle_options *o = &figure->options.particles;
     figure_scene *s = &figure->parts;
     particle_rules *rules = &s->rules;
-    if (parse_formula(figure, o->show, &s->show) || parse_formula(figure, o->radius, &s->radius) ||
+    if (open_formula(figure, o->show, &s->show) || open_formula(figure, o->radius, &s->radius) ||
         (o->arrows && parse_arrows(figure, o->arrows)))
         return -1;
     rules->show = s->show;
@@ -80,7 +81,7 @@ int cgt_figure_scene_open(cgt_figure *figure)
     memcpy(rules->radii, o->radii, sizeof rules->radii);
     memcpy(rules->images, o->images, sizeof rules->images);
     figure->sequence.rules = rules;
-    s->selects = !particle_rules_are_empty(rules) || o->bonds || o->arrows || o->trails;
+    s->selects = !cgt_particle_rules_are_empty(rules) || o->bonds || o->arrows || o->trails;
     return 0;
 }
 
@@ -148,10 +149,10 @@ void cgt_figure_scene_color(cgt_figure *figure)
     const uint8_t edge = back[0] + back[1] + back[2] > 384 ? 70 : 190; /* dark on light, light on dark */
     for (uint32_t i = 0; i < o->color_count; i++)
         if (figure->coloring.by == (o->colors[i].is_element ? COLORING_ELEMENT : COLORING_TYPE))
-            coloring_set_kind(&figure->coloring, o->colors[i].kind, o->colors[i].value);
+            cgt_coloring_set_kind(&figure->coloring, o->colors[i].kind, o->colors[i].value);
         else
-            notices_add(&figure->notices, "--type-color: the colours are not those of %s: see --color",
-                        o->colors[i].is_element ? "elements" : "types");
+            cgt_notices_add(&figure->notices, "--type-color: the colours are not those of %s: see --color",
+                            o->colors[i].is_element ? "elements" : "types");
     memcpy(figure->parts.palette, figure->coloring.palette, sizeof figure->coloring.palette);
     set_color(figure, FIGURE_BOX, (const uint8_t[]){edge, edge, edge});
     set_color(figure, FIGURE_BOND, o->bond_color);
@@ -188,7 +189,7 @@ void cgt_figure_scene_floor(cgt_figure *figure)
     for (int c = 0; c < 3; c++)
         o->place[c] = (double)middle[c] + figure->origin[c];
     o->place[3] = (double)size;
-    floor_make(&figure->parts.floor, middle, axis, size, figure->options.bounce.is_set && !o->has_color);
+    cgt_floor_make(&figure->parts.floor, middle, axis, size, figure->options.bounce.is_set && !o->has_color);
 }
 
 /* ---- Each frame --------------------------------------------------------------------------------------------- */
@@ -237,11 +238,11 @@ static int make_lines(const cgt_figure *figure, const cgt_trajectory_frame *f, f
     const trail_rules trails = {figure->sequence.trails, o->trail_radius, o->has_trail_color ? FIGURE_TRAIL : -1};
     parts->bonds = parts->sticks.count;
     parts->arrows = parts->sticks.triangles;
-    if (o->box && figures_add_box(&parts->sticks, f, o->images, radius, FIGURE_BOX)) {
+    if (o->box && cgt_shapes_add_box(&parts->sticks, f, o->images, radius, FIGURE_BOX)) {
         snprintf(error, error_size, "%s: frame %" PRIu64 ": --box: the file has no box", figure->source, f->number);
         return -1;
     }
-    return o->trails ? figures_add_trails(&parts->sticks, &trails, f, &parts->particles, error, error_size) : 0;
+    return o->trails ? cgt_shapes_add_trails(&parts->sticks, &trails, f, &parts->particles, error, error_size) : 0;
 }
 
 /* By what sticks are measured where no option says how thick they are: an Angstrom where there are elements, else the
@@ -269,14 +270,14 @@ static int make_figures(const cgt_figure *figure, const cgt_trajectory_frame *f,
                               .radius = o->bond_radius > 0.0f ? o->bond_radius : 0.15f * unit,
                               .entry = o->has_bond_color ? FIGURE_BOND : -1,
                               .images = {o->images[0], o->images[1], o->images[2]}};
-    sticks_clear(&parts->sticks, choose_sides(o, &parts->particles));
+    cgt_sticks_clear(&parts->sticks, choose_sides(o, &parts->particles));
     set_thinnest(figure, f, &parts->sticks);
-    if (o->bonds && figures_add_bonds(&parts->sticks, &bonds, f, &parts->particles, error, error_size))
+    if (o->bonds && cgt_shapes_add_bonds(&parts->sticks, &bonds, f, &parts->particles, error, error_size))
         return -1;
     if (o->arrows)
-        figures_add_arrows(&parts->sticks, vector, o->arrow_scale,
-                           o->arrow_radius > 0.0f ? o->arrow_radius : 0.1f * unit, &parts->particles,
-                           o->has_arrow_color ? FIGURE_ARROW : -1);
+        cgt_shapes_add_arrows(&parts->sticks, vector, o->arrow_scale,
+                              o->arrow_radius > 0.0f ? o->arrow_radius : 0.1f * unit, &parts->particles,
+                              o->has_arrow_color ? FIGURE_ARROW : -1);
     if (make_lines(figure, f, parts, error, error_size))
         return -1;
     if (parts->sticks.failed) {
@@ -306,7 +307,8 @@ static int find_rules(const cgt_figure *figure, const cgt_trajectory_frame *f, f
     }
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t k = figure->parts.selects ? parts->particles.source[i] : i;
-        parts->rules[i] = (int8_t)bounce_rule_of(o, f->type ? f->type + k : NULL, f->element ? f->element + k : NULL);
+        parts->rules[i] =
+            (int8_t)cgt_bounce_rule_of(o, f->type ? f->type + k : NULL, f->element ? f->element + k : NULL);
     }
     return 0;
 }
@@ -322,16 +324,16 @@ int cgt_figure_scene_prepare(const cgt_figure *figure, const cgt_trajectory_fram
                  figure->source);
         return -1;
     }
-    if (s->selects && particles_select(&parts->particles, &s->rules, f, index, error, error_size))
+    if (s->selects && cgt_particles_select(&parts->particles, &s->rules, f, index, error, error_size))
         return -1;
     return find_rules(figure, f, parts, error, error_size) || make_figures(figure, f, parts, error, error_size) ? -1
                                                                                                                 : 0;
 }
 
-void frame_parts_free(frame_parts *parts)
+void cgt_frame_parts_free(frame_parts *parts)
 {
-    particles_free(&parts->particles);
-    sticks_free(&parts->sticks);
+    cgt_particles_free(&parts->particles);
+    cgt_sticks_free(&parts->sticks);
     free(parts->rules);
 }
 
@@ -476,9 +478,9 @@ uint32_t cgt_figure_scene_looks(const cgt_figure *figure, cgt_look *looks)
 void cgt_figure_scene_close(cgt_figure *figure)
 {
     figure_scene *s = &figure->parts;
-    expression_free(s->show);
-    expression_free(s->radius);
+    cgt_expression_free(s->show);
+    cgt_expression_free(s->radius);
     for (int i = 0; i < 3; i++)
-        expression_free(s->arrow[i]);
+        cgt_expression_free(s->arrow[i]);
     free(s->mesh_entries);
 }

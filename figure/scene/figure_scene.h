@@ -73,7 +73,7 @@ void cgt_figure_scene_floor(cgt_figure *figure);
  * 0, or -1 with a text. */
 int cgt_figure_scene_prepare(const cgt_figure *figure, const cgt_trajectory_frame *frame, const uint16_t *index,
                              frame_parts *parts, char *error, size_t error_size);
-void frame_parts_free(frame_parts *parts);
+void cgt_frame_parts_free(frame_parts *parts);
 
 /* Hands r->frame and its parts to the library's scene. */
 int cgt_figure_scene_set(cgt_figure *figure, const frame_parts *parts);
@@ -86,7 +86,7 @@ int cgt_figure_scene_has_figures(const cgt_figure *figure);
 
 /* The rule, by its number, of a sphere of a type (NULL: the file has none) and an element (the same): one that names it
  * before one for all, the last of several; -1: none. */
-int bounce_rule_of(const bounce_options *options, const uint32_t *type, const uint8_t *element);
+int cgt_bounce_rule_of(const bounce_options *options, const uint32_t *type, const uint8_t *element);
 
 /* Sets the look of each geometry; returns how many there are, at most FIGURE_LOOKS. */
 uint32_t cgt_figure_scene_looks(const cgt_figure *figure, cgt_look *looks);

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-void floor_make(floor_mesh *floor, const float middle[3], int axis, float size, int is_chequered)
+void cgt_floor_make(floor_mesh *floor, const float middle[3], int axis, float size, int is_chequered)
 {
     const uint32_t side = is_chequered ? FLOOR_CHEQUERS : 1;
     const float square = (is_chequered ? 0.2f : 60.0f) * size, half = 0.5f * (float)side;

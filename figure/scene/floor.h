@@ -19,6 +19,6 @@ typedef struct floor_mesh {
 
 /* Squares around a place, across the axis 0 to 2. size: of the scene. Chequers are a fifth of it wide, FLOOR_CHEQUERS
  * along each edge; one piece reaches beyond what cameras see that look down on the scene. */
-void floor_make(floor_mesh *floor, const float middle[3], int axis, float size, int is_chequered);
+void cgt_floor_make(floor_mesh *floor, const float middle[3], int axis, float size, int is_chequered);
 
 #endif

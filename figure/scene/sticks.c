@@ -10,14 +10,14 @@
 
 static const float pi = 3.14159265f;
 
-void sticks_clear(sticks *s, uint32_t sides)
+void cgt_sticks_clear(sticks *s, uint32_t sides)
 {
     s->count = s->vertices = s->triangles = 0;
     s->sides = sides < 3 ? 3 : sides;
     s->failed = 0;
 }
 
-void sticks_free(sticks *s)
+void cgt_sticks_free(sticks *s)
 {
     free(s->end);
     free(s->radius);
@@ -29,7 +29,7 @@ void sticks_free(sticks *s)
     memset(s, 0, sizeof *s);
 }
 
-float sticks_visible(const sticks *s, const float place[3], float radius)
+float cgt_sticks_visible(const sticks *s, const float place[3], float radius)
 {
     double square = 0.0;
     for (int c = 0; c < 3; c++)
@@ -61,7 +61,7 @@ static int reserve_capsule(sticks *s)
     return s->failed;
 }
 
-void sticks_add(sticks *s, const float a[3], const float b[3], float radius, uint16_t entry_a, uint16_t entry_b)
+void cgt_sticks_add(sticks *s, const float a[3], const float b[3], float radius, uint16_t entry_a, uint16_t entry_b)
 {
     const int is_point = a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
     const int is_finite =
@@ -150,7 +150,7 @@ static float corner_radius(const sticks *s)
     return sqrtf(angle / sinf(angle));
 }
 
-void sticks_add_cylinder(sticks *s, const float a[3], const float b[3], float radius, uint16_t entry)
+void cgt_sticks_add_cylinder(sticks *s, const float a[3], const float b[3], float radius, uint16_t entry)
 {
     float along[3], u[3] = {0}, v[3] = {0}, n[3], p[3];
     if (!(axes(a, b, along, u, v) > 0.0f) || reserve(s, 2 * s->sides, 2 * s->sides))
@@ -172,7 +172,7 @@ void sticks_add_cylinder(sticks *s, const float a[3], const float b[3], float ra
     }
 }
 
-void sticks_add_cone(sticks *s, const float a[3], const float b[3], float radius, uint16_t entry)
+void cgt_sticks_add_cone(sticks *s, const float a[3], const float b[3], float radius, uint16_t entry)
 {
     float along[3], u[3] = {0}, v[3] = {0}, out[3], n[3], p[3];
     const float length = axes(a, b, along, u, v);
@@ -198,7 +198,7 @@ void sticks_add_cone(sticks *s, const float a[3], const float b[3], float radius
     }
 }
 
-void sticks_add_ball(sticks *s, const float center[3], float radius, uint16_t entry)
+void cgt_sticks_add_ball(sticks *s, const float center[3], float radius, uint16_t entry)
 {
     const uint32_t around = s->sides, rings = s->sides / 2 < 2 ? 2 : s->sides / 2;
     if (!isfinite(center[0] + center[1] + center[2]) || reserve(s, (rings + 1) * around, 2 * rings * around))

@@ -27,22 +27,22 @@ typedef struct sticks {
 } sticks;
 
 /* Removes everything and keeps the memory and what is thinnest. */
-void sticks_clear(sticks *s, uint32_t sides);
-void sticks_free(sticks *s);
+void cgt_sticks_clear(sticks *s, uint32_t sides);
+void cgt_sticks_free(sticks *s);
 
 /* A radius at a place, or the thinnest that is seen there. */
-float sticks_visible(const sticks *s, const float place[3], float radius);
+float cgt_sticks_visible(const sticks *s, const float place[3], float radius);
 
 /* A capsule from a to b, whose halves have an entry each; nothing where a and b are equal or not finite. */
-void sticks_add(sticks *s, const float a[3], const float b[3], float radius, uint16_t entry_a, uint16_t entry_b);
+void cgt_sticks_add(sticks *s, const float a[3], const float b[3], float radius, uint16_t entry_a, uint16_t entry_b);
 
 /* A cylinder from a to b without its caps; nothing where a and b are equal or not finite. */
-void sticks_add_cylinder(sticks *s, const float a[3], const float b[3], float radius, uint16_t entry);
+void cgt_sticks_add_cylinder(sticks *s, const float a[3], const float b[3], float radius, uint16_t entry);
 
 /* A cone with its base around a, closed by a disc, and its tip at b. */
-void sticks_add_cone(sticks *s, const float a[3], const float b[3], float radius, uint16_t entry);
+void cgt_sticks_add_cone(sticks *s, const float a[3], const float b[3], float radius, uint16_t entry);
 
 /* A ball. */
-void sticks_add_ball(sticks *s, const float center[3], float radius, uint16_t entry);
+void cgt_sticks_add_ball(sticks *s, const float center[3], float radius, uint16_t entry);
 
 #endif

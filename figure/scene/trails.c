@@ -44,14 +44,15 @@ static uint32_t add_piece(sticks *out, trail *t, const periodic_box *box, uint32
 {
     uint32_t kept = 0, k = first;
     double crossed[3];
-    for (; k < count && (k == first || !periodic_box_crossed(box, t->place[k - 1], t->place[k], crossed)); k++) {
+    for (; k < count && (k == first || !cgt_periodic_box_crossed(box, t->place[k - 1], t->place[k], crossed)); k++) {
         if (kept && distance(t->place[k], t->kept[kept - 1]) < shortest * t->radius[k])
             continue;
         memcpy(t->kept[kept], t->place[k], sizeof t->kept[kept]);
         t->kept_radius[kept++] = t->radius[k];
     }
     for (uint32_t i = 1; i < kept; i++)
-        sticks_add(out, t->kept[i - 1], t->kept[i], 0.5f * (t->kept_radius[i - 1] + t->kept_radius[i]), entry, entry);
+        cgt_sticks_add(out, t->kept[i - 1], t->kept[i], 0.5f * (t->kept_radius[i - 1] + t->kept_radius[i]), entry,
+                       entry);
     return k;
 }
 
@@ -61,13 +62,13 @@ static uint32_t add_trail(sticks *out, const trail_rules *r, const periodic_box 
 {
     const float *sphere = p->xyzr + 4 * (size_t)i;
     const float radius = r->radius > 0.0f ? r->radius : default_radius * sphere[3];
-    const uint32_t count = trail_history_places(r->history, p->source[i], t->place);
+    const uint32_t count = cgt_trail_history_places(r->history, p->source[i], t->place);
     for (uint32_t k = 0; k < count; k++) {
-        const float age = (float)k / (float)trail_history_length(r->history);
+        const float age = (float)k / (float)cgt_trail_history_length(r->history);
         t->radius[k] = radius * (1.0f - (1.0f - tail) * age);
         for (int c = 0; c < 3; c++) /* of an image: as far off as its sphere */
             t->place[k][c] += sphere[c] - original[c];
-        t->radius[k] = sticks_visible(out, t->place[k], t->radius[k]);
+        t->radius[k] = cgt_sticks_visible(out, t->place[k], t->radius[k]);
     }
     if (!(radius > 0.0f) || is_hidden(t, count, sphere))
         return 0;
@@ -77,23 +78,23 @@ static uint32_t add_trail(sticks *out, const trail_rules *r, const periodic_box 
     return count;
 }
 
-int figures_add_trails(sticks *out, const trail_rules *r, const cgt_trajectory_frame *f, const particles *p,
-                       char *error, size_t error_size)
+int cgt_shapes_add_trails(sticks *out, const trail_rules *r, const cgt_trajectory_frame *f, const particles *p,
+                          char *error, size_t error_size)
 {
-    const periodic_box box = periodic_box_of(f);
+    const periodic_box box = cgt_periodic_box_of(f);
     trail *t = malloc(sizeof *t);
     uint64_t places = 0;
     if (!t) {
         snprintf(error, error_size, "out of memory for trails");
         return -1;
     }
-    for (uint32_t i = 0; i < p->count && places <= FIGURES_MOST_PLACES; i++)
+    for (uint32_t i = 0; i < p->count && places <= SHAPES_MOST_PLACES; i++)
         places += add_trail(out, r, &box, p, i, f->xyzr + 4 * (size_t)p->source[i], t);
     free(t);
-    if (places <= FIGURES_MOST_PLACES)
+    if (places <= SHAPES_MOST_PLACES)
         return 0;
     snprintf(error, error_size,
              "--trails: frame %llu: more than %d places of spheres that move: give fewer frames, or show fewer spheres",
-             (unsigned long long)f->number, FIGURES_MOST_PLACES);
+             (unsigned long long)f->number, SHAPES_MOST_PLACES);
     return -1;
 }

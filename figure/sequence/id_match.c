@@ -18,7 +18,7 @@ static int grow(uint32_t **array, size_t count)
     return 0;
 }
 
-int id_match_remember(id_match *m, const uint32_t *id, uint32_t count)
+int cgt_id_match_remember(id_match *m, const uint32_t *id, uint32_t count)
 {
     if (id && count > m->capacity) {
         if (grow(&m->id, count))
@@ -61,14 +61,14 @@ static int make_slots(id_match *m)
     return 0;
 }
 
-int id_match_prepare(id_match *m, const uint32_t *id, uint32_t count)
+int cgt_id_match_prepare(id_match *m, const uint32_t *id, uint32_t count)
 {
     m->slots_valid = 0;
     const int moved = id && count && m->has_id && (count > m->count || memcmp(id, m->id, count * sizeof *id) != 0);
     return moved ? make_slots(m) : 0;
 }
 
-uint32_t id_match_search(const id_match *m, const uint32_t *id, uint32_t count, uint32_t i)
+uint32_t cgt_id_match_search(const id_match *m, const uint32_t *id, uint32_t count, uint32_t i)
 {
     if (!id || !m->has_id)
         return i < m->count && count >= m->count && !id == !m->has_id ? i : UINT32_MAX;
@@ -80,7 +80,7 @@ uint32_t id_match_search(const id_match *m, const uint32_t *id, uint32_t count, 
     return UINT32_MAX;
 }
 
-void id_match_free(id_match *m)
+void cgt_id_match_free(id_match *m)
 {
     free(m->id);
     free(m->slots);

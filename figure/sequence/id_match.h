@@ -21,19 +21,19 @@ typedef struct id_match {
 
 /* Makes these `count` spheres those of the frame before; id NULL: they have none. Returns 0, or -1 where there is no
  * memory, as the next. */
-int id_match_remember(id_match *m, const uint32_t *id, uint32_t count);
+int cgt_id_match_remember(id_match *m, const uint32_t *id, uint32_t count);
 
 /* To be called once for a frame before its spheres are sought: makes a table where the order of ids has changed. */
-int id_match_prepare(id_match *m, const uint32_t *id, uint32_t count);
+int cgt_id_match_prepare(id_match *m, const uint32_t *id, uint32_t count);
 
 /* The index of sphere i, of `count` with these ids, in the frame before; UINT32_MAX where it has none. Spheres without
  * ids may be added at the end, but where there are fewer than before nothing is known. */
-uint32_t id_match_search(const id_match *m, const uint32_t *id, uint32_t count, uint32_t i);
+uint32_t cgt_id_match_search(const id_match *m, const uint32_t *id, uint32_t count, uint32_t i);
 static inline uint32_t id_match_find(const id_match *m, const uint32_t *id, uint32_t count, uint32_t i)
 {
-    return id && m->has_id && i < m->count && m->id[i] == id[i] ? i : id_match_search(m, id, count, i);
+    return id && m->has_id && i < m->count && m->id[i] == id[i] ? i : cgt_id_match_search(m, id, count, i);
 }
 
-void id_match_free(id_match *m);
+void cgt_id_match_free(id_match *m);
 
 #endif

@@ -14,7 +14,7 @@ static void cross(const double a[3], const double b[3], double out[3])
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-periodic_box periodic_box_of(const cgt_trajectory_frame *f)
+periodic_box cgt_periodic_box_of(const cgt_trajectory_frame *f)
 {
     periodic_box box;
     memset(&box, 0, sizeof box);
@@ -33,7 +33,7 @@ periodic_box periodic_box_of(const cgt_trajectory_frame *f)
     return box;
 }
 
-int periodic_box_crossed(const periodic_box *box, const float a[3], const float b[3], double count[3])
+int cgt_periodic_box_crossed(const periodic_box *box, const float a[3], const float b[3], double count[3])
 {
     const double rounding = 1e-6; /* of places in single precision: half of an edge is no crossing */
     int crossed = 0;

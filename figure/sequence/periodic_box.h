@@ -16,10 +16,10 @@ typedef struct periodic_box {
     int is_open; /* all rows are zeros */
 } periodic_box;
 
-periodic_box periodic_box_of(const cgt_trajectory_frame *frame);
+periodic_box cgt_periodic_box_of(const cgt_trajectory_frame *frame);
 
 /* How many times each edge must be taken from b so that it is within half of that edge from a: count[e] is 0 along
  * edges whose boundary lies not between them. Returns whether one does. */
-int periodic_box_crossed(const periodic_box *box, const float a[3], const float b[3], double count[3]);
+int cgt_periodic_box_crossed(const periodic_box *box, const float a[3], const float b[3], double count[3]);
 
 #endif

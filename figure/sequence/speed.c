@@ -25,7 +25,7 @@ struct speed_tracker {
     float boxless[3];     /* the longest steps up to this frame, where it has no box */
 };
 
-speed_tracker *speed_create(cgt_context *context)
+speed_tracker *cgt_speed_create(cgt_context *context)
 {
     speed_tracker *const tracker = calloc(1, sizeof *tracker);
     if (tracker)
@@ -33,7 +33,7 @@ speed_tracker *speed_create(cgt_context *context)
     return tracker;
 }
 
-void speed_release(speed_tracker *tracker)
+void cgt_speed_release(speed_tracker *tracker)
 {
     if (!tracker)
         return;
@@ -41,13 +41,13 @@ void speed_release(speed_tracker *tracker)
     free(tracker->last_xyz);
     free(tracker->xyz);
     free(tracker->first);
-    id_match_free(&tracker->last);
+    cgt_id_match_free(&tracker->last);
     free(tracker);
 }
 
-void speed_restart(speed_tracker *tracker) { tracker->has_last = 0; }
+void cgt_speed_restart(speed_tracker *tracker) { tracker->has_last = 0; }
 
-void speed_boxless_steps(const speed_tracker *tracker, float longest[3])
+void cgt_speed_boxless_steps(const speed_tracker *tracker, float longest[3])
 {
     memcpy(longest, tracker->boxless, sizeof tracker->boxless);
 }
@@ -84,7 +84,7 @@ static const uint32_t *ids(const cgt_trajectory_frame *frame)
 static double distance(const periodic_box *box, const float *a, const float *b)
 {
     double sum = 0.0, count[3];
-    const int crossed = !box->is_open && periodic_box_crossed(box, a, b, count);
+    const int crossed = !box->is_open && cgt_periodic_box_crossed(box, a, b, count);
     for (int c = 0; c < 3; c++) {
         double d = (double)b[c] - (double)a[c];
         for (int e = 0; e < 3 && crossed; e++)
@@ -151,11 +151,11 @@ static void process_piece(void *user, uint32_t piece)
 
 static int process(speed_tracker *t, const cgt_trajectory_frame *frame)
 {
-    const periodic_box box = periodic_box_of(frame);
+    const periodic_box box = cgt_periodic_box_of(frame);
     const uint32_t pieces = frame->count / PIECE + (frame->count % PIECE > 0);
     const int has_box = !(frame->box_min[0] > frame->box_max[0]);
     speed_job job = {t, frame, &box, t->has_last && frame->step > t->last_step, NULL};
-    if (job.later && !frame->velocity && id_match_prepare(&t->last, ids(frame), frame->count))
+    if (job.later && !frame->velocity && cgt_id_match_prepare(&t->last, ids(frame), frame->count))
         return -1;
     if (!has_box && pieces && !(job.boxless = calloc(pieces, sizeof *job.boxless)))
         return -1;
@@ -169,14 +169,14 @@ static int process(speed_tracker *t, const cgt_trajectory_frame *frame)
     t->xyz = xyz;
     t->last_step = frame->step;
     t->has_last = 1;
-    return id_match_remember(&t->last, ids(frame), frame->count);
+    return cgt_id_match_remember(&t->last, ids(frame), frame->count);
 }
 
-int speed_look_ahead(speed_tracker *t, const cgt_trajectory_frame *next)
+int cgt_speed_look_ahead(speed_tracker *t, const cgt_trajectory_frame *next)
 {
-    const periodic_box box = periodic_box_of(next);
+    const periodic_box box = cgt_periodic_box_of(next);
     const uint32_t count = t->last.count;
-    if (grow(&t->first, (size_t)count + 1, 1) || id_match_prepare(&t->last, ids(next), next->count))
+    if (grow(&t->first, (size_t)count + 1, 1) || cgt_id_match_prepare(&t->last, ids(next), next->count))
         return -1;
     t->first_count = count;
     for (uint32_t i = 0; i < count; i++)
@@ -191,7 +191,8 @@ int speed_look_ahead(speed_tracker *t, const cgt_trajectory_frame *next)
     return 0;
 }
 
-int speed_next(speed_tracker *tracker, const cgt_trajectory_frame *frame, const float **speeds, speed_source *source)
+int cgt_speed_next(speed_tracker *tracker, const cgt_trajectory_frame *frame, const float **speeds,
+                   speed_source *source)
 {
     *speeds = NULL;
     *source = frame->velocity ? SPEED_FROM_VELOCITY : SPEED_FROM_POSITIONS;

@@ -25,7 +25,7 @@ struct trail_history {
     id_match last; /* the spheres of the newest */
 };
 
-trail_history *trail_history_create(uint32_t length)
+trail_history *cgt_trail_history_create(uint32_t length)
 {
     trail_history *h = calloc(1, sizeof *h);
     if (!h)
@@ -38,7 +38,7 @@ trail_history *trail_history_create(uint32_t length)
     return NULL;
 }
 
-void trail_history_release(trail_history *h)
+void cgt_trail_history_release(trail_history *h)
 {
     if (!h)
         return;
@@ -47,13 +47,13 @@ void trail_history_release(trail_history *h)
         free(h->frame[k].before);
     }
     free(h->frame);
-    id_match_free(&h->last);
+    cgt_id_match_free(&h->last);
     free(h);
 }
 
-uint32_t trail_history_length(const trail_history *h) { return h->length; }
+uint32_t cgt_trail_history_length(const trail_history *h) { return h->length; }
 
-void trail_history_restart(trail_history *h) { h->added = 0; }
+void cgt_trail_history_restart(trail_history *h) { h->added = 0; }
 
 static trail_frame *at(const trail_history *h, uint64_t number) { return &h->frame[number % (h->length + 1)]; }
 
@@ -70,12 +70,12 @@ static int reserve(trail_frame *t, uint32_t count)
     return t->xyz && t->before ? 0 : -1;
 }
 
-int trail_history_add(trail_history *h, const cgt_trajectory_frame *f)
+int cgt_trail_history_add(trail_history *h, const cgt_trajectory_frame *f)
 {
     trail_frame *const t = at(h, h->added);
     const int follows = h->added > 0 && f->step > h->last_step;
     t->count = 0;
-    if (reserve(t, f->count) || (follows && id_match_prepare(&h->last, f->id, f->count)))
+    if (reserve(t, f->count) || (follows && cgt_id_match_prepare(&h->last, f->id, f->count)))
         return -1;
     for (uint32_t i = 0; i < f->count; i++) {
         memcpy(t->xyz + 3 * (size_t)i, f->xyzr + 4 * (size_t)i, 3 * sizeof(float));
@@ -84,10 +84,10 @@ int trail_history_add(trail_history *h, const cgt_trajectory_frame *f)
     t->count = f->count;
     h->last_step = f->step;
     h->added++;
-    return id_match_remember(&h->last, f->id, f->count);
+    return cgt_id_match_remember(&h->last, f->id, f->count);
 }
 
-uint32_t trail_history_places(const trail_history *h, uint32_t i, float (*place)[3])
+uint32_t cgt_trail_history_places(const trail_history *h, uint32_t i, float (*place)[3])
 {
     uint32_t count = 0;
     for (uint64_t age = 0; age <= h->length && age < h->added; age++) {

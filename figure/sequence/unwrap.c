@@ -28,7 +28,7 @@ struct unwrapping {
     molecule_sum *sum; /* of the molecule whose root this is */
 };
 
-unwrapping *unwrap_create(unwrap_mode mode)
+unwrapping *cgt_unwrap_create(unwrap_mode mode)
 {
     unwrapping *const u = calloc(1, sizeof *u);
     if (u)
@@ -45,7 +45,7 @@ static void free_arrays(unwrapping *u)
     *u = (unwrapping){.mode = u->mode};
 }
 
-void unwrap_release(unwrapping *u)
+void cgt_unwrap_release(unwrapping *u)
 {
     if (u)
         free_arrays(u);
@@ -73,7 +73,7 @@ static int reserve(unwrapping *u, size_t count)
 
 static const char *const flags[] = {"ix", "iy", "iz", "image_x", "image_y", "image_z"};
 
-const char *const *unwrap_columns(size_t *count)
+const char *const *cgt_unwrap_columns(size_t *count)
 {
     *count = sizeof flags / sizeof flags[0];
     return flags;
@@ -133,7 +133,7 @@ static int join(unwrapping *u, const periodic_box *box, const float *xyzr, uint3
     double count[3], between[3]; /* what the root of b must be moved by against that of a */
     const uint32_t ra = find_root(u, a), rb = find_root(u, b);
     int differs = 0;
-    periodic_box_crossed(box, xyzr + 4 * (size_t)a, xyzr + 4 * (size_t)b, count);
+    cgt_periodic_box_crossed(box, xyzr + 4 * (size_t)a, xyzr + 4 * (size_t)b, count);
     for (int e = 0; e < 3; e++) {
         between[e] = u->move[a][e] - count[e] - u->move[b][e];
         differs |= between[e] != 0.0;
@@ -233,14 +233,14 @@ static void set_places(const unwrapping *u, const periodic_box *box, cgt_traject
     f->xyzr = u->xyzr;
 }
 
-int unwrap_frame(unwrapping *u, cgt_trajectory_frame *f, int *endless, char *error, size_t error_size)
+int cgt_unwrap_frame(unwrapping *u, cgt_trajectory_frame *f, int *endless, char *error, size_t error_size)
 {
     const float *value[3];
     if (f->kind != CGT_TRAJECTORY_SPHERES)
         return refuse(u, f, "is a mesh, which no periodic box has cut", error, error_size);
     if (f->box_min[0] > f->box_max[0])
         return refuse(u, f, "has no box", error, error_size);
-    const periodic_box box = periodic_box_of(f);
+    const periodic_box box = cgt_periodic_box_of(f);
     if (!is_periodic(&box, 0) && !is_periodic(&box, 1) && !is_periodic(&box, 2))
         return 0;
     if (reserve(u, f->count))

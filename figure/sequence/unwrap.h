@@ -19,11 +19,11 @@ typedef enum unwrap_mode {
 typedef struct unwrapping unwrapping;
 
 /* Returns NULL where there is no memory. */
-unwrapping *unwrap_create(unwrap_mode mode);
-void unwrap_release(unwrapping *u); /* NULL is ignored */
+unwrapping *cgt_unwrap_create(unwrap_mode mode);
+void cgt_unwrap_release(unwrapping *u); /* NULL is ignored */
 
 /* The columns that frames must be read with, if the file has them. */
-const char *const *unwrap_columns(size_t *count);
+const char *const *cgt_unwrap_columns(size_t *count);
 
 /* Moves the spheres of a frame: its xyzr becomes an array that is valid until the next call. Along edges that are not
  * periodic, or where the file's positions go on beyond the boundary, nothing moves. What image flags have moved is
@@ -31,6 +31,6 @@ const char *const *unwrap_columns(size_t *count);
  * (periodic_box.h). A molecule that is bonded to its own image has no end, and stays cut somewhere: the first one sets
  * *endless. Places are rounded to float once more. Returns 0, or -1 with a sentence: a mesh, no box, neither flags nor
  * bonds, no memory. */
-int unwrap_frame(unwrapping *u, cgt_trajectory_frame *frame, int *endless, char *error, size_t error_size);
+int cgt_unwrap_frame(unwrapping *u, cgt_trajectory_frame *frame, int *endless, char *error, size_t error_size);
 
 #endif

@@ -114,7 +114,7 @@ static void follow(bulk *b, uint64_t hash, const float min[3], const float max[3
 
 /* ---- All ---------------------------------------------------------------------------------------------------- */
 
-void bulk_add(bulk *b, uint64_t frame, uint32_t primitive, uint32_t id, const float place[3], float reach)
+void cgt_bulk_add(bulk *b, uint64_t frame, uint32_t primitive, uint32_t id, const float place[3], float reach)
 {
     follow(b, mix(id + UINT64_C(0x9E3779B97F4A7C15)), place, place);
     const bulk_sample sample = {mix(frame << 32 ^ primitive), {{place[0], place[1], place[2], reach}}};
@@ -128,20 +128,20 @@ static int compare_hashes(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-void bulk_sort(bulk *b)
+void cgt_bulk_sort(bulk *b)
 {
     qsort(b->sample, b->count, sizeof b->sample[0], compare_hashes);
     sort_particles(b);
 }
 
-void bulk_merge(bulk *sum, const bulk *part)
+void cgt_bulk_merge(bulk *sum, const bulk *part)
 {
     sum->seen += part->seen;
     for (uint32_t i = 0; i < part->count; i++)
         keep(sum->sample, &sum->count, &part->sample[i]);
     for (uint32_t i = 0; i < part->particles; i++)
         follow(sum, part->particle[i].hash, part->particle[i].min, part->particle[i].max);
-    bulk_sort(sum);
+    cgt_bulk_sort(sum);
 }
 
 static int compare(const void *a, const void *b)
@@ -150,7 +150,7 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-void bulk_sort_places(const bulk *b, int axis, float *sorted)
+void cgt_bulk_sort_places(const bulk *b, int axis, float *sorted)
 {
     for (uint32_t i = 0; i < b->count; i++)
         sorted[i] = b->sample[i].place[axis];
@@ -159,20 +159,20 @@ void bulk_sort_places(const bulk *b, int axis, float *sorted)
 
 /* ---- Values ------------------------------------------------------------------------------------------------- */
 
-void bulk_values_add(bulk_values *v, uint64_t frame, uint32_t primitive, double value)
+void cgt_bulk_values_add(bulk_values *v, uint64_t frame, uint32_t primitive, double value)
 {
     bulk_sample sample = {mix(frame << 32 ^ primitive), {{0.0f}}}; /* the bytes beside the value, too */
     sample.value = value;
     keep(v->sample, &v->count, &sample);
 }
 
-void bulk_values_sort(bulk_values *v) { qsort(v->sample, v->count, sizeof v->sample[0], compare_hashes); }
+void cgt_bulk_values_sort(bulk_values *v) { qsort(v->sample, v->count, sizeof v->sample[0], compare_hashes); }
 
-void bulk_values_merge(bulk_values *sum, const bulk_values *part)
+void cgt_bulk_values_merge(bulk_values *sum, const bulk_values *part)
 {
     for (uint32_t i = 0; i < part->count; i++)
         keep(sum->sample, &sum->count, &part->sample[i]);
-    bulk_values_sort(sum);
+    cgt_bulk_values_sort(sum);
 }
 
 static int compare_values(const void *a, const void *b)
@@ -181,7 +181,7 @@ static int compare_values(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-int bulk_values_range(const bulk_values *v, double above, double *low, double *high)
+int cgt_bulk_values_range(const bulk_values *v, double above, double *low, double *high)
 {
     double sorted[BULK_SAMPLES];
     uint32_t count = 0;
@@ -212,12 +212,12 @@ static void find_ends(const bulk *b, float *sorted, bulk_ends *e)
     const uint32_t rank = (b->count - 1) / 100;
     e->edge = 0.0;
     for (int c = 0; c < 3; c++) {
-        bulk_sort_places(b, c, sorted);
+        cgt_bulk_sort_places(b, c, sorted);
         e->low[c] = (double)sorted[rank];
         e->high[c] = (double)sorted[b->count - 1 - rank];
         e->edge = e->high[c] - e->low[c] > e->edge ? e->high[c] - e->low[c] : e->edge;
     }
-    bulk_sort_places(b, 3, sorted);
+    cgt_bulk_sort_places(b, 3, sorted);
     e->reach = (double)sorted[b->count - 1];
 }
 
@@ -262,7 +262,7 @@ static uint32_t bound_inside(const bulk *b, const double lowest[3], const double
     return inside;
 }
 
-uint64_t bulk_narrow(const bulk *b, float min[3], float max[3], int *narrowed)
+uint64_t cgt_bulk_narrow(const bulk *b, float min[3], float max[3], int *narrowed)
 {
     bulk_ends ends;
     double lowest[3], highest[3]; /* rounded as bounds are, which a sphere at the end of a bulk must not exceed */

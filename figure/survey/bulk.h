@@ -45,31 +45,31 @@ typedef struct bulk {
 
 /* Adds a finite place and the reach of its primitive; a bulk that is all zero is empty. frame, primitive: their
  * numbers, for the hash; id: of the particle in all frames, the number where there is none. */
-void bulk_add(bulk *b, uint64_t frame, uint32_t primitive, uint32_t id, const float place[3], float reach);
+void cgt_bulk_add(bulk *b, uint64_t frame, uint32_t primitive, uint32_t id, const float place[3], float reach);
 
 /* Brings the samples into one order, whatever theirs was; more may be added. */
-void bulk_sort(bulk *b);
-void bulk_values_sort(bulk_values *v);
+void cgt_bulk_sort(bulk *b);
+void cgt_bulk_values_sort(bulk_values *v);
 
-/* Adds a finite value; the numbers are those of bulk_add. */
-void bulk_values_add(bulk_values *v, uint64_t frame, uint32_t primitive, double value);
+/* Adds a finite value; the numbers are those of cgt_bulk_add. */
+void cgt_bulk_values_add(bulk_values *v, uint64_t frame, uint32_t primitive, double value);
 
 /* The 1 % and the 99 % quantile of the samples above `above`; of fewer than 101 the least and the greatest. Returns 0
  * where there are none. */
-int bulk_values_range(const bulk_values *v, double above, double *low, double *high);
+int cgt_bulk_values_range(const bulk_values *v, double above, double *low, double *high);
 
 /* Sorts the samples' coordinates along an axis, or, as axis 3, how far their primitives reach: `count` floats. */
-void bulk_sort_places(const bulk *b, int axis, float *sorted);
+void cgt_bulk_sort_places(const bulk *b, int axis, float *sorted);
 
 /* Adds the samples of another one, and sorts them. */
-void bulk_merge(bulk *sum, const bulk *part);
-void bulk_values_merge(bulk_values *sum, const bulk_values *part);
+void cgt_bulk_merge(bulk *sum, const bulk *part);
+void cgt_bulk_values_merge(bulk_values *sum, const bulk_values *part);
 
 /* Narrows the bounds of everything to those of the bulk. It reaches from the 1 % to the 99 % quantile of the samples
  * along each axis; further, to the 1 % quantile of the particles' lowest places and the 99 % quantile of their highest,
  * where that is not farther off than twice its longest edge; and half of that edge and the largest reach beyond. Bounds
  * within stay. Returns about how many of `seen` lie outside: at least 1, or 0 where nothing was narrowed. *narrowed
  * gets whether a bound was. */
-uint64_t bulk_narrow(const bulk *b, float min[3], float max[3], int *narrowed);
+uint64_t cgt_bulk_narrow(const bulk *b, float min[3], float max[3], int *narrowed);
 
 #endif

@@ -35,7 +35,7 @@ static int find_origin(const double middle[3], double size, double radius, doubl
     return 1;
 }
 
-int origin_of_bulk(const bulk *b, double origin[3])
+int cgt_origin_of_bulk(const bulk *b, double origin[3])
 {
     double middle[3], size = 0.0;
     const uint32_t rank = b->count ? (b->count - 1) / 100 : 0;
@@ -43,17 +43,17 @@ int origin_of_bulk(const bulk *b, double origin[3])
     if (!sorted)
         return 0;
     for (int c = 0; c < 3; c++) {
-        bulk_sort_places(b, c, sorted);
+        cgt_bulk_sort_places(b, c, sorted);
         middle[c] = (double)sorted[b->count / 2];
         size = fmax(size, (double)sorted[b->count - 1 - rank] - (double)sorted[rank]);
     }
-    bulk_sort_places(b, 3, sorted);
+    cgt_bulk_sort_places(b, 3, sorted);
     const double radius = (double)sorted[b->count / 2];
     free(sorted);
     return find_origin(middle, size + 2.0 * radius, radius > 0.0 ? radius : INFINITY, origin);
 }
 
-int origin_of_camera(const double eye[3], const double target[3], double origin[3])
+int cgt_origin_of_camera(const double eye[3], const double target[3], double origin[3])
 {
     double square = 0.0;
     for (int c = 0; c < 3; c++)
@@ -61,7 +61,7 @@ int origin_of_camera(const double eye[3], const double target[3], double origin[
     return find_origin(target, sqrt(square), INFINITY, origin);
 }
 
-void origin_tell(const double origin[3], const char *what, char *text, size_t size)
+void cgt_origin_tell(const double origin[3], const char *what, char *text, size_t size)
 {
     snprintf(text, size,
              "%s far from 0, where single precision rounds coordinates visibly: --origin %.15g,%.15g,%.15g is "

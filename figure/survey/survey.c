@@ -56,7 +56,7 @@ static void survey_block(survey *s, const frame_sequence *sequence, const camera
         min[c] = INFINITY;
         max[c] = -INFINITY;
     }
-    particle_radii(sequence->rules ? sequence->rules : &as_it_is, f, first, count, radius);
+    cgt_particle_radii(sequence->rules ? sequence->rules : &as_it_is, f, first, count, radius);
     for (uint32_t k = 0; k < count; k++) {
         const float *const sphere = f->xyzr + 4 * (size_t)(first + k);
         is_drawable[k] = finite_point(sphere) && isfinite(radius[k]) && radius[k] >= 0.0f;
@@ -66,7 +66,7 @@ static void survey_block(survey *s, const frame_sequence *sequence, const camera
         bound_point(min, max, sphere, 0.0f);
         bound_point(s->bounds_min, s->bounds_max, sphere, radius[k]);
         largest = radius[k] > largest ? radius[k] : largest;
-        bulk_add(&s->bulk, f->number, first + k, f->id ? f->id[first + k] : first + k, sphere, radius[k]);
+        cgt_bulk_add(&s->bulk, f->number, first + k, f->id ? f->id[first + k] : first + k, sphere, radius[k]);
     }
     if (!may_reach_farther(&s->reach, fit, min, max, largest))
         return;
@@ -98,7 +98,7 @@ static void survey_triangle(survey *s, const cgt_trajectory_frame *frame, const 
         centre[c] = 0.5f * low + 0.5f * high;
         reach = fmaxf(reach, 0.5f * high - 0.5f * low);
     }
-    bulk_add(&s->bulk, frame->number, i, i, centre, reach);
+    cgt_bulk_add(&s->bulk, frame->number, i, i, centre, reach);
 }
 
 static void survey_names(survey *s, const cgt_trajectory_frame *frame, uint32_t i)
@@ -118,14 +118,14 @@ static void survey_values(survey *s, const frame_sequence *sequence, uint32_t fi
     double values[BLOCK];
     for (; first < end; first += BLOCK) {
         const uint32_t block = end - first < BLOCK ? end - first : BLOCK;
-        expression_values(sequence->formulas[0], first, block, values);
+        cgt_expression_values(sequence->formulas[0], first, block, values);
         for (uint32_t i = 0; i < block; i++) {
             if (!isfinite(values[i])) {
                 s->unknown_values++;
                 continue;
             }
             s->values++;
-            bulk_values_add(&s->value_samples, sequence->frame.number, first + i, values[i]);
+            cgt_bulk_values_add(&s->value_samples, sequence->frame.number, first + i, values[i]);
             s->value_min = fmin(s->value_min, values[i]);
             s->value_max = fmax(s->value_max, values[i]);
             if (values[i] > 0.0)
@@ -150,7 +150,7 @@ static void survey_kinds(survey *s, const frame_sequence *sequence, uint32_t fir
     for (; first < end; first += BLOCK) {
         const uint32_t block = end - first < BLOCK ? end - first : BLOCK;
         if (show)
-            expression_values(show, first, block, shown);
+            cgt_expression_values(show, first, block, shown);
         for (uint32_t i = 0; i < block; i++)
             if (!show || (shown[i] != 0.0 && !isnan(shown[i])))
                 survey_kind(s, &sequence->frame, first + i);
@@ -239,10 +239,10 @@ static void merge(survey *sum, const survey *part)
         sum->box_reach.along[k] = fmax(sum->box_reach.along[k], part->box_reach.along[k]);
         sum->move_reach.along[k] = fmax(sum->move_reach.along[k], part->move_reach.along[k]);
     }
-    bulk_merge(&sum->bulk, &part->bulk);
+    cgt_bulk_merge(&sum->bulk, &part->bulk);
     sum->values += part->values;
     sum->unknown_values += part->unknown_values;
-    bulk_values_merge(&sum->value_samples, &part->value_samples);
+    cgt_bulk_values_merge(&sum->value_samples, &part->value_samples);
     sum->value_min = fmin(sum->value_min, part->value_min);
     sum->value_max = fmax(sum->value_max, part->value_max);
     sum->value_least = fmin(sum->value_least, part->value_least);
@@ -301,7 +301,7 @@ static void survey_piece(void *user, uint32_t index)
         survey_speeds(s, sequence->speed, begin, end);
 }
 
-void survey_look(survey_team *team)
+void cgt_survey_look(survey_team *team)
 {
     const cgt_trajectory_frame *const frame = &team->sequence->frame;
     const uint32_t most = frame_primitives(frame) / PIECE_LEAST + 1;
@@ -311,7 +311,7 @@ void survey_look(survey_team *team)
     survey_box(team->first, team->sequence, fit_of(team));
     float steps[3] = {0.0f, 0.0f, 0.0f};
     if (team->sequence->tracker)
-        speed_boxless_steps(team->sequence->tracker, steps);
+        cgt_speed_boxless_steps(team->sequence->tracker, steps);
     for (int c = 0; c < 3; c++)
         team->first->boxless_steps[c] = fmaxf(team->first->boxless_steps[c], steps[c]);
     team->pieces = most < team->threads ? most : team->threads;
@@ -319,8 +319,8 @@ void survey_look(survey_team *team)
 }
 
 /* Where there is no memory for more threads there is one. */
-void survey_begin(survey_team *team, const frame_sequence *sequence, const camera_directions *fit, cgt_context *context,
-                  survey *result)
+void cgt_survey_begin(survey_team *team, const frame_sequence *sequence, const camera_directions *fit,
+                      cgt_context *context, survey *result)
 {
     const uint32_t known = cgt_context_get_threads(context), threads = known ? known : 1;
     *team = (survey_team){.sequence = sequence, .fit = fit, .first = result, .context = context, .threads = threads};
@@ -334,18 +334,18 @@ void survey_begin(survey_team *team, const frame_sequence *sequence, const camer
     }
 }
 
-void survey_end(survey_team *team)
+void cgt_survey_end(survey_team *team)
 {
     for (uint32_t i = 0; i + 1 < team->threads; i++)
         merge(team->first, &team->others[i]);
     free(team->others);
-    bulk_sort(&team->first->bulk);
-    bulk_values_sort(&team->first->value_samples);
+    cgt_bulk_sort(&team->first->bulk);
+    cgt_bulk_values_sort(&team->first->value_samples);
 }
 
 /* ---- Ranges ------------------------------------------------------------------------------------------------------- */
 
-float survey_speed_quantile(const survey *s, double share)
+float cgt_survey_speed_quantile(const survey *s, double share)
 {
     uint64_t below = 0;
     for (uint32_t bin = 0; bin < SURVEY_BINS; bin++) {
@@ -360,10 +360,10 @@ float survey_speed_quantile(const survey *s, double share)
     return 0.0f;
 }
 
-int survey_value_range(const survey *s, int logarithmic, double *min, double *max)
+int cgt_survey_value_range(const survey *s, int logarithmic, double *min, double *max)
 {
     const int scaled = logarithmic && isfinite(s->value_least);
-    const int known = bulk_values_range(&s->value_samples, scaled ? 0.0 : -INFINITY, min, max);
+    const int known = cgt_bulk_values_range(&s->value_samples, scaled ? 0.0 : -INFINITY, min, max);
     if (known && *min < *max)
         return 1;
     *min = scaled ? s->value_least : s->value_min;

@@ -54,21 +54,21 @@ typedef struct survey_team {
 /* Begins a survey of the frames of a sequence.
  *   fit       of spheres, and one more of triangles: what the camera needs; NULL: nothing
  *   context   whose threads look at large frames; the survey is the same from any number */
-void survey_begin(survey_team *team, const frame_sequence *sequence, const camera_directions *fit, cgt_context *context,
-                  survey *result);
+void cgt_survey_begin(survey_team *team, const frame_sequence *sequence, const camera_directions *fit,
+                      cgt_context *context, survey *result);
 
 /* Looks at the frame that the sequence took last. */
-void survey_look(survey_team *team);
+void cgt_survey_look(survey_team *team);
 
 /* Ends a survey, whose result has no total yet. */
-void survey_end(survey_team *team);
+void cgt_survey_end(survey_team *team);
 
 /* The quantile `share` of the known speeds, at most a sixteenth too large; 0 where none is known. */
-float survey_speed_quantile(const survey *s, double share);
+float cgt_survey_speed_quantile(const survey *s, double share);
 
 /* The ends of a colour map for the first formula's values, of which there are some: the 1 % and the 99 % quantile, or
  * the least and the greatest value where those are equal. logarithmic: of the values above 0, where there are any.
  * Returns whether it is the quantiles. */
-int survey_value_range(const survey *s, int logarithmic, double *min, double *max);
+int cgt_survey_value_range(const survey *s, int logarithmic, double *min, double *max);
 
 #endif

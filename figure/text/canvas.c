@@ -16,7 +16,7 @@ static void blend_linear(cgt_linear_pixel *p, const float color[3], float share)
     p->a += share * (1.0f - p->a);
 }
 
-void canvas_blend(const canvas *c, int32_t x, int32_t y, const float color[3], float coverage)
+void cgt_canvas_blend(const canvas *c, int32_t x, int32_t y, const float color[3], float coverage)
 {
     if (x < 0 || y < 0 || (uint32_t)x >= c->width || (uint32_t)y >= c->height || !(coverage > 0.0f))
         return;
@@ -39,7 +39,7 @@ void canvas_blend(const canvas *c, int32_t x, int32_t y, const float color[3], f
 static int32_t first_pixel(float x) { return x > 0.0f ? (int32_t)fminf(x, 1e6f) : 0; }
 static int32_t end_pixel(float x, uint32_t size) { return x > 0.0f ? (int32_t)ceilf(fminf(x, (float)size)) : 0; }
 
-void canvas_line(const canvas *c, const float a[2], const float b[2], float width, const float color[3])
+void cgt_canvas_line(const canvas *c, const float a[2], const float b[2], float width, const float color[3])
 {
     const float d[2] = {b[0] - a[0], b[1] - a[1]}, square = d[0] * d[0] + d[1] * d[1], reach = 0.5f * width + 1.0f;
     const int32_t x0 = first_pixel(fminf(a[0], b[0]) - reach), y0 = first_pixel(fminf(a[1], b[1]) - reach);
@@ -51,18 +51,19 @@ void canvas_line(const canvas *c, const float a[2], const float b[2], float widt
             const float v[2] = {(float)x + 0.5f - a[0], (float)y + 0.5f - a[1]};
             const float along = square > 0.0f ? fminf(1.0f, fmaxf(0.0f, (v[0] * d[0] + v[1] * d[1]) / square)) : 0.0f;
             const float off = hypotf(v[0] - along * d[0], v[1] - along * d[1]);
-            canvas_blend(c, x, y, color, 0.5f * width + 0.5f - off);
+            cgt_canvas_blend(c, x, y, color, 0.5f * width + 0.5f - off);
         }
 }
 
 /* The part of pixel i that lies between two coordinates. */
 static float covered(float from, float to, float i) { return fminf(to, i + 1.0f) - fmaxf(from, i); }
 
-void canvas_fill(const canvas *c, float x, float y, float width, float height, const float color[3])
+void cgt_canvas_fill(const canvas *c, float x, float y, float width, float height, const float color[3])
 {
     const int32_t x1 = end_pixel(x + width, c->width), y1 = end_pixel(y + height, c->height);
     for (int32_t j = first_pixel(y); j < y1; j++)
         for (int32_t i = first_pixel(x); i < x1; i++)
-            canvas_blend(c, i, j, color,
-                         fmaxf(0.0f, covered(x, x + width, (float)i)) * fmaxf(0.0f, covered(y, y + height, (float)j)));
+            cgt_canvas_blend(c, i, j, color,
+                             fmaxf(0.0f, covered(x, x + width, (float)i)) *
+                                 fmaxf(0.0f, covered(y, y + height, (float)j)));
 }

@@ -18,10 +18,10 @@ typedef struct canvas {
 } canvas;
 
 /* Blends a pixel to a linear colour by its coverage, 0 to 1; nothing outside of the picture. */
-void canvas_blend(const canvas *c, int32_t x, int32_t y, const float color[3], float coverage);
+void cgt_canvas_blend(const canvas *c, int32_t x, int32_t y, const float color[3], float coverage);
 
 /* Places are in pixels from the upper left corner. A line has round ends; a disc is a line of no length. */
-void canvas_line(const canvas *c, const float a[2], const float b[2], float width, const float color[3]);
-void canvas_fill(const canvas *c, float x, float y, float width, float height, const float color[3]);
+void cgt_canvas_line(const canvas *c, const float a[2], const float b[2], float width, const float color[3]);
+void cgt_canvas_fill(const canvas *c, float x, float y, float width, float height, const float color[3]);
 
 #endif

@@ -13,7 +13,7 @@ static const float margin = 0.9f;
 
 /* ---- Text --------------------------------------------------------------------------------------------------- */
 
-void overlay_format(const char *format, const overlay_frame *f, char *text, size_t size)
+void cgt_overlay_format(const char *format, const overlay_frame *f, char *text, size_t size)
 {
     size_t used = 0;
     text[0] = '\0';
@@ -43,12 +43,12 @@ static void draw_texts(const overlay *o, const canvas *c, const overlay_frame *f
 {
     char text[256];
     if (o->title) {
-        const float width = text_width(o->font, o->title);
-        text_draw(o->font, c, 0.5f * ((float)c->width - width), (margin + 0.8f) * o->size, o->title, o->color);
+        const float width = cgt_text_width(o->font, o->title);
+        cgt_text_draw(o->font, c, 0.5f * ((float)c->width - width), (margin + 0.8f) * o->size, o->title, o->color);
     }
     if (o->time) {
-        overlay_format(o->time, frame, text, sizeof text);
-        text_draw(o->font, c, margin * o->size, (float)c->height - margin * o->size, text, o->color);
+        cgt_overlay_format(o->time, frame, text, sizeof text);
+        cgt_text_draw(o->font, c, margin * o->size, (float)c->height - margin * o->size, text, o->color);
     }
 }
 
@@ -67,7 +67,7 @@ static uint32_t linear_ticks(double min, double max, double *ticks, uint32_t mos
     return count;
 }
 
-uint32_t overlay_ticks(double min, double max, int logarithmic, double *ticks, uint32_t most)
+uint32_t cgt_overlay_ticks(double min, double max, int logarithmic, double *ticks, uint32_t most)
 {
     if (!(max > min) || !isfinite(max - min))
         return 0;
@@ -94,13 +94,13 @@ static void draw_ticks(const overlay *o, const canvas *c, float left, float top,
     enum { MOST = 6 };
     double ticks[MOST];
     char text[32];
-    const uint32_t count = overlay_ticks(o->coloring->min, o->coloring->max, o->coloring->logarithmic, ticks, MOST);
+    const uint32_t count = cgt_overlay_ticks(o->coloring->min, o->coloring->max, o->coloring->logarithmic, ticks, MOST);
     for (uint32_t i = 0; i < count; i++) {
         const float y = top + (1.0f - (float)share_of(o->coloring, ticks[i])) * height;
-        canvas_fill(c, left, y - 0.04f * o->size, 0.3f * o->size, 0.08f * o->size, o->color);
+        cgt_canvas_fill(c, left, y - 0.04f * o->size, 0.3f * o->size, 0.08f * o->size, o->color);
         snprintf(text, sizeof text, "%.6g", fabs(ticks[i]) < 1e-12 * fabs(o->coloring->max) ? 0.0 : ticks[i]);
         if (o->font)
-            text_draw(o->font, c, left + 0.5f * o->size, y + 0.36f * o->size, text, o->color);
+            cgt_text_draw(o->font, c, left + 0.5f * o->size, y + 0.36f * o->size, text, o->color);
     }
 }
 
@@ -114,13 +114,13 @@ static void draw_bar(const overlay *o, const canvas *c)
         const float y = (float)row;
         const float x = 1.0f - (y + 0.5f) / height;
         const uint32_t entry = (uint32_t)(fmaxf(0.0f, x) * (COLORING_STEPS - 1) + 0.5f);
-        canvas_fill(c, left, top + y, width, fminf(1.0f, height - y), k->palette[entry]);
+        cgt_canvas_fill(c, left, top + y, width, fminf(1.0f, height - y), k->palette[entry]);
     }
     draw_ticks(o, c, left + width, top, height);
     if (*o->bar) {
-        const float length = text_width(o->font, o->bar), room = (float)c->width - margin * o->size - left;
-        text_draw(o->font, c, length < room ? left : (float)c->width - margin * o->size - length, top - 0.7f * o->size,
-                  o->bar, o->color);
+        const float length = cgt_text_width(o->font, o->bar), room = (float)c->width - margin * o->size - left;
+        cgt_text_draw(o->font, c, length < room ? left : (float)c->width - margin * o->size - length,
+                      top - 0.7f * o->size, o->bar, o->color);
     }
 }
 
@@ -133,8 +133,8 @@ static void draw_swatch(const overlay *o, const canvas *c, float x, float y, con
     float rim[3];
     for (int k = 0; k < 3; k++)
         rim[k] = 0.5f * (o->color[k] + color[k]);
-    canvas_line(c, center, center, 0.96f * o->size, rim);
-    canvas_line(c, center, center, 0.96f * o->size - fmaxf(1.0f, 0.1f * o->size), color);
+    cgt_canvas_line(c, center, center, 0.96f * o->size, rim);
+    cgt_canvas_line(c, center, center, 0.96f * o->size - fmaxf(1.0f, 0.1f * o->size), color);
 }
 
 /* To the right, in the middle of the height, as far from the edge as the longest line wants. */
@@ -143,27 +143,27 @@ static void draw_legend(const overlay *o, const canvas *c)
     const float indent = 1.35f * o->size, step = 1.45f * o->size;
     const uint32_t lines = o->kind_count < OVERLAY_MOST_KINDS ? o->kind_count : OVERLAY_MOST_KINDS;
     char more[32] = "";
-    float width = o->font ? text_width(o->font, o->legend) : 0.0f;
+    float width = o->font ? cgt_text_width(o->font, o->legend) : 0.0f;
     if (o->kind_count > lines)
         snprintf(more, sizeof more, "and %" PRIu32 " more", o->kind_count - lines);
     for (uint32_t i = 0; i < lines && o->font; i++)
-        width = fmaxf(width, indent + text_width(o->font, o->kinds[i].name));
+        width = fmaxf(width, indent + cgt_text_width(o->font, o->kinds[i].name));
     if (*more && o->font)
-        width = fmaxf(width, indent + text_width(o->font, more));
+        width = fmaxf(width, indent + cgt_text_width(o->font, more));
     const float left = (float)c->width - margin * o->size - fmaxf(width, indent);
     float y = 0.5f * ((float)c->height - step * (float)(lines + (*o->legend != 0) + (*more != 0)));
     if (*o->legend) {
         if (o->font)
-            text_draw(o->font, c, left, y + 0.9f * o->size, o->legend, o->color);
+            cgt_text_draw(o->font, c, left, y + 0.9f * o->size, o->legend, o->color);
         y += step;
     }
     for (uint32_t i = 0; i < lines; i++, y += step) {
         draw_swatch(o, c, left + 0.5f * o->size, y + 0.5f * step, o->kinds[i].color);
         if (o->font)
-            text_draw(o->font, c, left + indent, y + 0.5f * step + 0.36f * o->size, o->kinds[i].name, o->color);
+            cgt_text_draw(o->font, c, left + indent, y + 0.5f * step + 0.36f * o->size, o->kinds[i].name, o->color);
     }
     if (*more && o->font)
-        text_draw(o->font, c, left + indent, y + 0.5f * step + 0.36f * o->size, more, o->color);
+        cgt_text_draw(o->font, c, left + indent, y + 0.5f * step + 0.36f * o->size, more, o->color);
 }
 
 /* ---- Axes --------------------------------------------------------------------------------------------------- */
@@ -185,14 +185,14 @@ static void draw_axes(const overlay *o, const canvas *c, const overlay_frame *f)
         const int a = order[i];
         const float tip[2] = {origin[0] + length * f->right[a], origin[1] - length * f->up[a]};
         const char name[2] = {(char)('x' + a), '\0'};
-        canvas_line(c, origin, tip, 0.16f * o->size, colors[a]);
+        cgt_canvas_line(c, origin, tip, 0.16f * o->size, colors[a]);
         if (o->font)
-            text_draw(o->font, c, tip[0] + 0.35f * o->size * f->right[a] - 0.3f * o->size,
-                      tip[1] - 0.45f * o->size * f->up[a] + 0.3f * o->size, name, o->color);
+            cgt_text_draw(o->font, c, tip[0] + 0.35f * o->size * f->right[a] - 0.3f * o->size,
+                          tip[1] - 0.45f * o->size * f->up[a] + 0.3f * o->size, name, o->color);
     }
 }
 
-void overlay_draw(const overlay *o, const canvas *c, const overlay_frame *frame)
+void cgt_overlay_draw(const overlay *o, const canvas *c, const overlay_frame *frame)
 {
     if (o->legend)
         draw_legend(o, c);

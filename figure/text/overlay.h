@@ -41,13 +41,13 @@ typedef struct overlay_frame {
     float right[3], up[3], forward[3];
 } overlay_frame;
 
-void overlay_draw(const overlay *o, const canvas *c, const overlay_frame *frame);
+void cgt_overlay_draw(const overlay *o, const canvas *c, const overlay_frame *frame);
 
 /* Replaces {time}, {step} and {frame}; text is cut to size. */
-void overlay_format(const char *format, const overlay_frame *frame, char *text, size_t size);
+void cgt_overlay_format(const char *format, const overlay_frame *frame, char *text, size_t size);
 
 /* Ticks between min and max, min < max, rising: multiples of 1, 2 or 5 times a power of ten; with logarithmic, 0 < min,
  * such numbers themselves. Returns how many, at most `most`, which is 2 or more. */
-uint32_t overlay_ticks(double min, double max, int logarithmic, double *ticks, uint32_t most);
+uint32_t cgt_overlay_ticks(double min, double max, int logarithmic, double *ticks, uint32_t most);
 
 #endif

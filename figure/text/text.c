@@ -32,7 +32,7 @@ static FT_Error open_face(text_font *font, const char *path)
     return 1;
 }
 
-text_font *text_open(const char *path, float pixels, char *error, size_t error_size)
+text_font *cgt_text_open(const char *path, float pixels, char *error, size_t error_size)
 {
     text_font *font = calloc(1, sizeof *font);
     if (!font || FT_Init_FreeType(&font->library)) {
@@ -54,11 +54,11 @@ text_font *text_open(const char *path, float pixels, char *error, size_t error_s
     } else {
         return font;
     }
-    text_close(font);
+    cgt_text_close(font);
     return NULL;
 }
 
-void text_close(text_font *font)
+void cgt_text_close(text_font *font)
 {
     if (!font)
         return;
@@ -87,7 +87,7 @@ static uint32_t next_character(const char **text)
     return t[0] >= 0x80 && !more ? 0xfffd : code;
 }
 
-float text_width(const text_font *font, const char *utf8)
+float cgt_text_width(const text_font *font, const char *utf8)
 {
     float width = 0.0f;
     uint32_t code;
@@ -107,12 +107,12 @@ static void draw_bitmap(const canvas *c, FT_GlyphSlot glyph, int32_t x, int32_t 
     for (uint32_t j = 0; j < b->rows; j++)
         for (uint32_t i = 0; i < b->width; i++) {
             const float share = (float)b->buffer[(ptrdiff_t)j * b->pitch + (ptrdiff_t)i] / 255.0f;
-            canvas_blend(c, x + glyph->bitmap_left + (int32_t)i, y - glyph->bitmap_top + (int32_t)j, color,
-                         is_dark ? sqrtf(share) : share);
+            cgt_canvas_blend(c, x + glyph->bitmap_left + (int32_t)i, y - glyph->bitmap_top + (int32_t)j, color,
+                             is_dark ? sqrtf(share) : share);
         }
 }
 
-void text_draw(const text_font *font, const canvas *c, float x, float y, const char *utf8, const float color[3])
+void cgt_text_draw(const text_font *font, const canvas *c, float x, float y, const char *utf8, const float color[3])
 {
     uint32_t code;
     while ((code = next_character(&utf8)) != 0) {
@@ -125,7 +125,7 @@ void text_draw(const text_font *font, const canvas *c, float x, float y, const c
 
 #else
 
-text_font *text_open(const char *path, float pixels, char *error, size_t error_size)
+text_font *cgt_text_open(const char *path, float pixels, char *error, size_t error_size)
 {
     (void)path;
     (void)pixels;
@@ -133,16 +133,16 @@ text_font *text_open(const char *path, float pixels, char *error, size_t error_s
     return NULL;
 }
 
-void text_close(text_font *font) { (void)font; }
+void cgt_text_close(text_font *font) { (void)font; }
 
-float text_width(const text_font *font, const char *utf8)
+float cgt_text_width(const text_font *font, const char *utf8)
 {
     (void)font;
     (void)utf8;
     return 0.0f;
 }
 
-void text_draw(const text_font *font, const canvas *c, float x, float y, const char *utf8, const float color[3])
+void cgt_text_draw(const text_font *font, const canvas *c, float x, float y, const char *utf8, const float color[3])
 {
     (void)font;
     (void)c;

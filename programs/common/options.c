@@ -86,7 +86,7 @@ static void print_words(const option_table *table, const char *name)
 
 static int set_word(const option_row *row, const char *text, void *to, char *error, size_t size)
 {
-    const int word = row->names ? option_find(row->names, text, error, size) : option_find_word(row->words, text);
+    const int word = row->names ? option_find(row->names, text, error, size) : cgt_find_word(row->words, text);
     if (word < 0) {
         if (!row->names)
             refuse_word(text, row->words, error, size);
@@ -114,7 +114,7 @@ static int set_list(const option_row *row, const char *list, int *chosen, char *
 static int set_double(const option_row *row, const char *text, double *to, char *error, size_t size)
 {
     float value;
-    if (program_parse_float(text, (float)row->low, (float)row->high, &value, error, size))
+    if (cgt_read_float(text, (float)row->low, (float)row->high, &value, error, size))
         return -1;
     *to = (double)value;
     return 0;
@@ -136,10 +136,10 @@ static int set_value(const option_row *row, const char *text, void *options, cha
     case OPTION_WORD:
     case OPTION_NAME: return set_word(row, text, to, error, size);
     case OPTION_LIST: return set_list(row, text, to, error, size);
-    case OPTION_FLOAT: return program_parse_float(text, (float)row->low, (float)row->high, to, error, size);
+    case OPTION_FLOAT: return cgt_read_float(text, (float)row->low, (float)row->high, to, error, size);
     case OPTION_DOUBLE: return set_double(row, text, to, error, size);
-    case OPTION_U32: return program_parse_u32(text, (uint32_t)row->first, (uint32_t)row->last, to, error, size);
-    case OPTION_U64: return program_parse_u64(text, row->first, row->last, to, error, size);
+    case OPTION_U32: return cgt_read_u32(text, (uint32_t)row->first, (uint32_t)row->last, to, error, size);
+    case OPTION_U64: return cgt_read_u64(text, row->first, row->last, to, error, size);
     case OPTION_PARSED: return row->parse(text, to, error, size);
     case OPTION_REFUSED: snprintf(error, size, "%s", row->help); return -1;
     }
@@ -326,5 +326,5 @@ void options_print_others(const option_table *table, const options_given *given)
 
 int option_parse_origin(const char *text, void *to, char *error, size_t error_size)
 {
-    return program_parse_doubles(text, 3, to, error, error_size);
+    return cgt_read_doubles(text, 3, to, error, error_size);
 }

@@ -164,9 +164,9 @@ static int find_origin(const cgt_trajectory_frame *frame, double origin[3])
     for (uint32_t i = 0; i < frame->count && frame->kind == CGT_TRAJECTORY_SPHERES; i++) {
         const float *const p = frame->xyzr + 4 * (size_t)i;
         if (isfinite(p[0] + p[1] + p[2] + p[3]))
-            bulk_add(&b, 0, i, i, p, p[3]);
+            cgt_bulk_add(&b, 0, i, i, p, p[3]);
     }
-    return origin_of_bulk(&b, origin);
+    return cgt_origin_of_bulk(&b, origin);
 }
 
 /* Reads the frame `number`. The first one that is converted decides on the origin of all, and is read again. */
@@ -186,7 +186,7 @@ static int read_frame(conversion *c, uint64_t number, cgt_trajectory_frame *fram
             origin[0], origin[1], origin[2]);
         return result;
     }
-    origin_tell(origin, "the spheres are", c->error, sizeof c->error);
+    cgt_origin_tell(origin, "the spheres are", c->error, sizeof c->error);
     program_error("%s", c->error);
     cgt_trajectory_set_origin(c->from, origin);
     result = trajectory_status(c->from, cgt_trajectory_rewind(c->from), c->error, sizeof c->error);

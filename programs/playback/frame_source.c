@@ -33,7 +33,7 @@ void frame_source_close(frame_source *source)
 
 int frame_source_rewind(frame_source *source, char *error, size_t error_size)
 {
-    frame_sequence_restart(source->sequence);
+    cgt_frame_sequence_restart(source->sequence);
     source->next = 0;
     return frame_keep_rewind(&source->keep, source->file, error, error_size);
 }
@@ -47,7 +47,7 @@ uint64_t frame_range_count(const frame_range *range, uint64_t total)
 int frame_source_want_columns(frame_source *source, char *error, size_t error_size)
 {
     const char *wanted[CGT_TRAJECTORY_MOST_COLUMNS];
-    const size_t count = frame_sequence_columns(source->sequence, wanted, CGT_TRAJECTORY_MOST_COLUMNS);
+    const size_t count = cgt_frame_sequence_columns(source->sequence, wanted, CGT_TRAJECTORY_MOST_COLUMNS);
     return trajectory_failed(source->file, cgt_trajectory_want_columns(source->file, wanted, count), error, error_size);
 }
 
@@ -58,7 +58,7 @@ static int read_places(frame_source *source, cgt_trajectory_frame *frame, char *
     const int result = frame_keep_read(&source->keep, source->file, frame, error, error_size);
     if (result != 1)
         return result;
-    const int failed = frame_sequence_place(source->sequence, frame, &endless, error, error_size);
+    const int failed = cgt_frame_sequence_place(source->sequence, frame, &endless, error, error_size);
     if (endless && !source->is_endless)
         program_error("warning: frame %llu has a molecule that is bonded to its own image: it stays cut somewhere",
                       (unsigned long long)frame->number);
@@ -74,12 +74,12 @@ static int read_frame(frame_source *source, char *error, size_t error_size)
         program_error("warning: %s", warning);
     if (result != 1)
         return result;
-    return frame_sequence_take(source->sequence, error, error_size) ? -1 : 1;
+    return cgt_frame_sequence_take(source->sequence, error, error_size) ? -1 : 1;
 }
 
 static int skip_frame(frame_source *source, char *error, size_t error_size)
 {
-    frame_sequence_skip(source->sequence);
+    cgt_frame_sequence_skip(source->sequence);
     return frame_keep_skip(&source->keep, source->file, error, error_size);
 }
 
@@ -88,10 +88,10 @@ static int look_ahead(frame_source *source, char *error, size_t error_size)
 {
     cgt_trajectory_frame second;
     source->looks_ahead = 0;
-    if (!frame_sequence_looks_ahead(source->sequence) || !cgt_trajectory_can_rewind(source->file))
+    if (!cgt_frame_sequence_looks_ahead(source->sequence) || !cgt_trajectory_can_rewind(source->file))
         return 1;
     if (read_places(source, &second, error, error_size) == 1 &&
-        frame_sequence_look_ahead(source->sequence, &second, error, error_size))
+        cgt_frame_sequence_look_ahead(source->sequence, &second, error, error_size))
         return -1;
     return frame_source_rewind(source, error, error_size) ? -1 : read_frame(source, error, error_size);
 }
@@ -100,7 +100,7 @@ int frame_source_read(frame_source *source, uint64_t number, char *error, size_t
 {
     int result = 1;
     while (result == 1 && source->next < number) {
-        const int needed = number - source->next <= frame_sequence_lead(source->sequence);
+        const int needed = number - source->next <= cgt_frame_sequence_lead(source->sequence);
         result = needed ? read_frame(source, error, error_size) : skip_frame(source, error, error_size);
         source->next += result == 1;
     }

@@ -16,7 +16,7 @@ static int visit(frame_source *source, const survey_plan *plan, uint64_t number,
     if (number < plan->most) {
         const int state = frame_source_read(source, number, error, error_size);
         if (state == 1)
-            survey_look(team);
+            cgt_survey_look(team);
         return state;
     }
     const int state = frame_keep_skip(&source->keep, source->file, error, error_size);
@@ -30,7 +30,7 @@ int survey_run(frame_source *source, const survey_plan *plan, survey *result, ch
     survey_team team;
     int state = 1;
     uint64_t number = 0;
-    survey_begin(&team, source->sequence, plan->fit, plan->context, result);
+    cgt_survey_begin(&team, source->sequence, plan->fit, plan->context, result);
     frame_keep_begin(&source->keep);
     program_progress_start(&progress, "reading", "frames", 0.0, plan->quiet);
     while (!*plan->stop && (plan->count || number < plan->most)) {
@@ -42,7 +42,7 @@ int survey_run(frame_source *source, const survey_plan *plan, survey *result, ch
     }
     program_progress_end(&progress);
     frame_keep_end(&source->keep, state == 0 && !source->follows);
-    survey_end(&team);
+    cgt_survey_end(&team);
     if (*plan->stop) {
         snprintf(error, error_size, "interrupted");
         return -1;

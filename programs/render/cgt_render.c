@@ -173,8 +173,8 @@ static void print_range_rule(const renderer *r, FILE *to)
         return;
     if (is_formula && s->value_min < s->value_max)
         fprintf(to, ", the %s of values from %g to %g",
-                survey_value_range(s, r->figure.options.logarithmic, &min, &max) ? "1 % and the 99 % quantile"
-                                                                                 : "least and the greatest",
+                cgt_survey_value_range(s, r->figure.options.logarithmic, &min, &max) ? "1 % and the 99 % quantile"
+                                                                                     : "least and the greatest",
                 s->value_min, s->value_max);
     else if (is_formula)
         fprintf(to, s->values ? ", which all values are" : ", since no value is finite");

@@ -22,7 +22,7 @@ int render_fail(renderer *r)
 int render_result(renderer *r, int result)
 {
     const char *notice;
-    while ((notice = notices_take(&r->figure.notices)) != NULL)
+    while ((notice = cgt_notices_take(&r->figure.notices)) != NULL)
         program_error("%s", notice);
     if (result)
         program_error("%s", r->figure.message);
@@ -298,7 +298,7 @@ static int start_threads(renderer *r)
     if (render_writer_start(writer))
         return -1;
     if (r->figure.options.particles.trails &&
-        !(r->figure.sequence.trails = trail_history_create(r->figure.options.particles.trails))) {
+        !(r->figure.sequence.trails = cgt_trail_history_create(r->figure.options.particles.trails))) {
         program_error("out of memory for the trails");
         return -1;
     }
@@ -343,7 +343,7 @@ void render_close(renderer *r)
     render_reader_finish(&r->reader);
     render_cell_release(r->cell);
     render_picture_close(r);
-    coloring_free(&r->reader.coloring);
+    cgt_coloring_free(&r->reader.coloring);
     frame_source_close(&r->source);
     cgt_figure_close(&r->figure);
     cgt_trajectory_close(r->mesh);

@@ -125,7 +125,7 @@ void viewer_free(viewer *v)
     view_frames_finish(v->frames);
     view_draw_close(v->draw);
     program_set_error_sink(NULL, NULL);
-    text_close(v->font);
+    cgt_text_close(v->font);
     free(v->events);
     free(v->rgb);
     free(v->over);

@@ -75,7 +75,7 @@ EMSCRIPTEN_KEEPALIVE int web_start(uint32_t threads)
 static void close_file(void)
 {
     cgt_figure_close(&web.figure); /* its scene uses the frame's arrays */
-    frame_parts_free(&web.parts);
+    cgt_frame_parts_free(&web.parts);
     frame_source_close(&web.file);
     memset(&web.figure, 0, sizeof web.figure);
     memset(&web.parts, 0, sizeof web.parts);
@@ -112,7 +112,7 @@ static int set_scene(void)
 {
     cgt_figure *const figure = &web.figure;
     const cgt_trajectory_frame *const f = &figure->sequence.frame;
-    if (coloring_apply(&figure->coloring, f, figure->sequence.speed))
+    if (cgt_coloring_apply(&figure->coloring, f, figure->sequence.speed))
         return fail("out of memory for the colours");
     if (cgt_figure_scene_prepare(figure, f, figure->coloring.index, &web.parts, web.message, sizeof web.message))
         return -1;
@@ -128,16 +128,16 @@ static void set_looks(void)
 {
     cgt_figure *const figure = &web.figure;
     figure_options o;
-    figure_options_init(&o);
+    cgt_figure_options_init(&o);
     o.picture.style = web.style;
     o.width = web.width;
     o.height = web.height;
-    figure_options_finish(&o, web.message, sizeof web.message);
-    o.picture.ambient = o.picture.ambient < 0 ? style_get(web.style)->ambient : o.picture.ambient;
+    cgt_figure_options_finish(&o, web.message, sizeof web.message);
+    o.picture.ambient = o.picture.ambient < 0 ? cgt_style_get(web.style)->ambient : o.picture.ambient;
     figure->options.picture = o.picture;
     figure->options.width = o.width;
     figure->options.height = o.height;
-    camera_path_fixed(&figure->path, &web.camera, 0.0);
+    cgt_camera_path_fixed(&figure->path, &web.camera, 0.0);
     figure->camera = web.camera;
     cgt_figure_choose_light(figure);
 }
@@ -156,12 +156,12 @@ EMSCRIPTEN_KEEPALIVE int web_open(const char *path)
     cgt_figure *const figure = &web.figure;
     close_file();
     web.message[0] = web.cut[0] = 0;
-    figure_options_init(&figure->options);
+    cgt_figure_options_init(&figure->options);
     figure->options.width = web.width;
     figure->options.height = web.height;
     figure->source = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
     figure->context = web.context;
-    if (figure_options_finish(&figure->options, web.message, sizeof web.message))
+    if (cgt_figure_options_finish(&figure->options, web.message, sizeof web.message))
         return fail_file();
     if (cgt_figure_open(figure)) {
         fail_figure();
@@ -231,7 +231,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_warning(void)
         web.cut[0] = 0;
         return web.message;
     }
-    const char *const notice = web.is_open ? notices_take(&web.figure.notices) : NULL;
+    const char *const notice = web.is_open ? cgt_notices_take(&web.figure.notices) : NULL;
     return notice || !web.is_open ? notice : cgt_trajectory_take_warning(web.file.file);
 }
 

@@ -59,13 +59,13 @@ static void open_run(frame_source *source)
     cgt_trajectory_options_init(&options);
     options.format = "xyz";
     assert_int_equal(frame_source_open(source, sequence, paths, 1, &options, error, sizeof error), 0);
-    sequence->tracker = speed_create(context);
+    sequence->tracker = cgt_speed_create(context);
     assert_non_null(sequence->tracker);
 }
 
 static void close_run(frame_source *source)
 {
-    frame_sequence_close(source->sequence);
+    cgt_frame_sequence_close(source->sequence);
     frame_source_close(source);
 }
 
@@ -139,20 +139,20 @@ TEST(trails_do_not_depend_on_what_was_read)
         for (uint32_t length = 1; length <= 5; length += 2) {
             frame_source source;
             open_run(&source);
-            speed_release(source.sequence->tracker);
+            cgt_speed_release(source.sequence->tracker);
             source.sequence->tracker = NULL;
-            source.sequence->trails = trail_history_create(length);
+            source.sequence->trails = cgt_trail_history_create(length);
             assert_non_null(source.sequence->trails);
             for (uint64_t number = steps[s] - 1; number < FRAMES; number += steps[s]) {
                 const uint64_t back = number % 3 < length ? number % 3 : length;
                 assert_int_equal(frame_source_read(&source, number, error, sizeof error), 1);
-                assert_int_equal(trail_history_places(source.sequence->trails, 0, place), back + 1);
+                assert_int_equal(cgt_trail_history_places(source.sequence->trails, 0, place), back + 1);
                 for (uint64_t k = 0; k <= back; k++)
                     assert_true(place[k][0] == (float)((number - k) * (number - k + 1) / 2));
             }
             assert_int_equal(frame_source_rewind(&source, error, sizeof error), 0);
             assert_int_equal(frame_source_read(&source, 0, error, sizeof error), 1);
-            assert_int_equal(trail_history_places(source.sequence->trails, 0, place), 1);
+            assert_int_equal(cgt_trail_history_places(source.sequence->trails, 0, place), 1);
             close_run(&source);
         }
 }
@@ -223,10 +223,10 @@ TEST(threads_do_not_change_surveys)
         options.format = "xyz";
         options.threads = (int)threads;
         assert_int_equal(frame_source_open(&source, &sequences[0], paths, 1, &options, error, sizeof error), 0);
-        sequences[0].tracker = speed_create(some);
-        assert_int_equal(
-            frame_sequence_bind(source.sequence, expression_parse("y + z", error, sizeof error), error, sizeof error),
-            0);
+        sequences[0].tracker = cgt_speed_create(some);
+        assert_int_equal(cgt_frame_sequence_bind(source.sequence, cgt_expression_parse("y + z", error, sizeof error),
+                                                 error, sizeof error),
+                         0);
         assert_int_equal(survey_run(&source, &plan, threads == 1 ? &one : &many, error, sizeof error), 0);
         assert_true(one.drawable == 446298 - 447 && one.has_element && one.speeds == 0);
         assert_true(one.values == 446298 && one.id_max == 149999);
@@ -234,7 +234,7 @@ TEST(threads_do_not_change_surveys)
             assert_memory_equal(&many, &one, sizeof one);
         else
             expect_reach(&source, &one);
-        expression_free(source.sequence->formulas[0]);
+        cgt_expression_free(source.sequence->formulas[0]);
         close_run(&source);
         cgt_context_release(some);
     }
@@ -299,11 +299,12 @@ TEST(frames_of_a_survey_are_kept)
         uint64_t number = 0;
         open_run(&kept);
         open_run(&fresh);
-        assert_int_equal(
-            frame_sequence_bind(kept.sequence, expression_parse("x + y", error, sizeof error), error, sizeof error), 0);
-        assert_int_equal(
-            frame_sequence_bind(fresh.sequence, expression_parse("x + y", error, sizeof error), error, sizeof error),
-            0);
+        assert_int_equal(cgt_frame_sequence_bind(kept.sequence, cgt_expression_parse("x + y", error, sizeof error),
+                                                 error, sizeof error),
+                         0);
+        assert_int_equal(cgt_frame_sequence_bind(fresh.sequence, cgt_expression_parse("x + y", error, sizeof error),
+                                                 error, sizeof error),
+                         0);
         kept.keep.most = most;
         assert_int_equal(survey_run(&kept, &plan, &found, error, sizeof error), 0);
         assert_true(kept.keep.bytes <= most && (kept.keep.bytes > 0) == (most > 0));
@@ -313,15 +314,15 @@ TEST(frames_of_a_survey_are_kept)
             assert_int_equal(frame_source_read(&fresh, number, error, sizeof error), 1);
             check_same_frame(&kept, &fresh);
             double sum[3], expected[3];
-            expression_values(kept.sequence->formulas[0], 0, kept.sequence->frame.count, sum);
-            expression_values(fresh.sequence->formulas[0], 0, fresh.sequence->frame.count, expected);
+            cgt_expression_values(kept.sequence->formulas[0], 0, kept.sequence->frame.count, sum);
+            cgt_expression_values(fresh.sequence->formulas[0], 0, fresh.sequence->frame.count, expected);
             assert_memory_equal(sum, expected, kept.sequence->frame.count * sizeof *sum);
         }
         /* all of it was kept: the file was not read again */
         assert_int_equal(kept.keep.file_next == 0, most > 100000 && plan.most == UINT64_MAX);
         assert_int_equal(frame_source_read(&kept, number, error, sizeof error), 0);
-        expression_free(kept.sequence->formulas[0]);
-        expression_free(fresh.sequence->formulas[0]);
+        cgt_expression_free(kept.sequence->formulas[0]);
+        cgt_expression_free(fresh.sequence->formulas[0]);
         close_run(&kept);
         close_run(&fresh);
     }

@@ -156,11 +156,11 @@ static cgt_trajectory_frame unwrapped(unwrap_mode mode, int columns)
     char error[300];
     cgt_trajectory_frame f = m.frame;
     int endless = 0;
-    unwrap_release(last);
-    last = unwrap_create(mode);
+    cgt_unwrap_release(last);
+    last = cgt_unwrap_create(mode);
     assert_non_null(last);
     f.columns = (uint32_t)columns;
-    assert_int_equal(unwrap_frame(last, &f, &endless, error, sizeof error), 0);
+    assert_int_equal(cgt_unwrap_frame(last, &f, &endless, error, sizeof error), 0);
     assert_false(endless);
     return f;
 }
@@ -233,19 +233,19 @@ TEST(what_cannot_be_put_together_is_told)
     int endless = 0;
     test_random r = random_make(4);
     make(&r);
-    unwrapping *u = unwrap_create(UNWRAP_IMAGES), *whole = unwrap_create(UNWRAP_WHOLE);
+    unwrapping *u = cgt_unwrap_create(UNWRAP_IMAGES), *whole = cgt_unwrap_create(UNWRAP_WHOLE);
     cgt_trajectory_frame f = m.frame;
     f.bond = NULL;
-    assert_int_equal(unwrap_frame(u, &f, &endless, error, sizeof error), -1);
+    assert_int_equal(cgt_unwrap_frame(u, &f, &endless, error, sizeof error), -1);
     assert_non_null(strstr(error, "--unwrap: frame 0 has neither image flags (ix, iy, iz) nor bonds"));
-    assert_int_equal(unwrap_frame(whole, &f, &endless, error, sizeof error), -1);
+    assert_int_equal(cgt_unwrap_frame(whole, &f, &endless, error, sizeof error), -1);
     assert_non_null(strstr(error, "--whole: frame 0 has no bonds"));
     f.box_max[0] = -1.0f;
-    assert_int_equal(unwrap_frame(u, &f, &endless, error, sizeof error), -1);
+    assert_int_equal(cgt_unwrap_frame(u, &f, &endless, error, sizeof error), -1);
     assert_non_null(strstr(error, "has no box"));
     f = m.frame;
     f.kind = CGT_TRAJECTORY_TRIANGLES;
-    assert_int_equal(unwrap_frame(u, &f, &endless, error, sizeof error), -1);
+    assert_int_equal(cgt_unwrap_frame(u, &f, &endless, error, sizeof error), -1);
     assert_non_null(strstr(error, "is a mesh"));
 
     /* walls, and positions that go on: nothing moves, and nothing is asked for */
@@ -253,7 +253,7 @@ TEST(what_cannot_be_put_together_is_told)
     f.bond = NULL;
     f.periodic[0] = f.periodic[1] = 0;
     f.unwrapped[2] = 1;
-    assert_int_equal(unwrap_frame(u, &f, &endless, error, sizeof error), 0);
+    assert_int_equal(cgt_unwrap_frame(u, &f, &endless, error, sizeof error), 0);
     assert_ptr_equal(f.xyzr, m.xyzr);
 
     /* a chain of three through the whole box; a sphere nowhere */
@@ -265,12 +265,12 @@ TEST(what_cannot_be_put_together_is_told)
     f.count = 4;
     f.bond = bonds;
     f.bonds = 4;
-    assert_int_equal(unwrap_frame(whole, &f, &endless, error, sizeof error), 0);
+    assert_int_equal(cgt_unwrap_frame(whole, &f, &endless, error, sizeof error), 0);
     assert_int_equal(endless, 1);
     assert_true(isnan(f.xyzr[12]));
-    unwrap_release(u);
-    unwrap_release(whole);
-    unwrap_release(NULL);
+    cgt_unwrap_release(u);
+    cgt_unwrap_release(whole);
+    cgt_unwrap_release(NULL);
 }
 
 SUITE(NULL, NULL)

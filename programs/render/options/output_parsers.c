@@ -60,13 +60,13 @@ int parse_grid(const char *text, void *to, char *error, size_t size)
 {
     render_options *o = to;
     char first[16];
-    const char *rows = option_split(text, 'x', first, sizeof first);
+    const char *rows = cgt_split(text, 'x', first, sizeof first);
     if (!rows) {
         snprintf(error, size, "\"%s\" is not of the form 4x3", text);
         return -1;
     }
-    return program_parse_u32(first, 1, CONTACT_SHEET_MAX_EDGE, &o->sheet_columns, error, size) ||
-                   program_parse_u32(rows, 1, CONTACT_SHEET_MAX_EDGE, &o->sheet_rows, error, size)
+    return cgt_read_u32(first, 1, CONTACT_SHEET_MAX_EDGE, &o->sheet_columns, error, size) ||
+                   cgt_read_u32(rows, 1, CONTACT_SHEET_MAX_EDGE, &o->sheet_rows, error, size)
                ? -1
                : 0;
 }
@@ -76,14 +76,13 @@ int parse_part(const char *text, void *to, char *error, size_t size)
 {
     output_options *o = to;
     char first[16];
-    const char *const second = option_split(text, '/', first, sizeof first);
+    const char *const second = cgt_split(text, '/', first, sizeof first);
     uint32_t part, parts;
     if (!second) {
         snprintf(error, size, "\"%.80s\" is not of the form 2/5", text);
         return -1;
     }
-    if (program_parse_u32(second, 1, 1000000, &parts, error, size) ||
-        program_parse_u32(first, 1, parts, &part, error, size))
+    if (cgt_read_u32(second, 1, 1000000, &parts, error, size) || cgt_read_u32(first, 1, parts, &part, error, size))
         return -1;
     o->part = part;
     o->parts = parts;

@@ -55,7 +55,7 @@ int render_options_finish(void *options, const char **operands, size_t count, ch
                           o->outputs[i].pattern);
     if (o->range.last < o->range.first)
         return refuse(error, size, "--last is before --first");
-    if (figure_options_finish(&o->figure, error, size))
+    if (cgt_figure_options_finish(&o->figure, error, size))
         return -1;
     if (o->cell.mode == RENDER_CELL_NONE && (o->cell.assignment || o->cell.program))
         return refuse(error, size, "--cell-assignment and --cell-program are for --cell");
@@ -74,7 +74,7 @@ void render_options_init(render_options *o)
     o->sheet_columns = 4;
     o->sheet_rows = 3;
     o->memory_mib = quarter_of_memory();
-    figure_options_init(&o->figure);
+    cgt_figure_options_init(&o->figure);
 }
 
 void render_options_parse(render_options *options, int argc, char **argv)

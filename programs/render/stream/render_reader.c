@@ -52,7 +52,7 @@ static int read_one(render_reader *r, uint64_t chosen)
     if (r->read == 0 && r->check && r->check(r->user, &r->source->sequence->frame))
         return -1;
     const double read = program_seconds();
-    int failed = coloring_apply(&r->coloring, &r->source->sequence->frame, r->source->sequence->speed);
+    int failed = cgt_coloring_apply(&r->coloring, &r->source->sequence->frame, r->source->sequence->speed);
     const double colored = program_seconds();
     read_frame *const frame = failed ? NULL : wait_for_room(r);
     if (!failed && !frame)
@@ -99,7 +99,7 @@ static void *read_frames(void *user)
 int render_reader_start(render_reader *r)
 {
     int wrong = 0;
-    for (int i = 0; i < READ_AHEAD; i++) { /* coloring_apply grows an index that is there */
+    for (int i = 0; i < READ_AHEAD; i++) { /* cgt_coloring_apply grows an index that is there */
         r->frames[i].index = calloc(1, sizeof *r->frames[i].index);
         r->frames[i].index_capacity = 1;
         wrong |= !r->frames[i].index;
@@ -148,7 +148,7 @@ void render_reader_finish(render_reader *r)
     }
     for (int i = 0; i < READ_AHEAD; i++) {
         frame_copy_free(&r->frames[i].copy);
-        frame_parts_free(&r->frames[i].parts);
+        cgt_frame_parts_free(&r->frames[i].parts);
         free(r->frames[i].index);
         r->frames[i].index = NULL;
     }

@@ -130,7 +130,7 @@ static int write_picture(view_draw *d, render_options *o, const view_frame *f, c
     d->alpha = o->figure.picture.transparent && rgb ? rgb + 3 * pixels : NULL;
     if (!writer || !rgb)
         program_error("out of memory for the picture");
-    else if (camera_key_move(&o->figure.camera, r->figure.origin))
+    else if (cgt_camera_key_move(&o->figure.camera, r->figure.origin))
         program_error("eye and target of the camera are the same point");
     else if (view_draw_set_frame(d, f, &o->figure.camera.camera) == 0 &&
              view_draw_picture(d, &o->figure.camera.camera, VIEW_FULL, 1, rgb, &never) == 0) {

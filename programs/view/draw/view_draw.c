@@ -118,7 +118,7 @@ void view_draw_close(view_draw *d)
     if (!d)
         return;
     free_quick(d);
-    frame_parts_free(&d->parts);
+    cgt_frame_parts_free(&d->parts);
     render_close(&d->r);
     free(d->given);
     free(d->show);
@@ -138,13 +138,14 @@ view_frames *view_draw_start_frames(view_draw *d, size_t memory, void (*wake)(vo
         .total = r->figure.has_survey && r->figure.survey.has_total ? r->figure.survey.total : 0,
         .wake = wake,
         .user = user};
-    if (o->figure.particles.trails && !(r->figure.sequence.trails = trail_history_create(o->figure.particles.trails))) {
+    if (o->figure.particles.trails &&
+        !(r->figure.sequence.trails = cgt_trail_history_create(o->figure.particles.trails))) {
         program_error("out of memory for the trails");
         return NULL;
     }
     if (!r->figure.sequence.tracker)
         r->figure.sequence.tracker =
-            speed_create(r->context); /* colours may change to speeds; without memory they are unknown */
+            cgt_speed_create(r->context); /* colours may change to speeds; without memory they are unknown */
     return view_frames_start(&r->source, &options);
 }
 
@@ -175,7 +176,7 @@ static int bind(view_draw *d, const view_frame *f)
     expression *const all[] = {r->figure.formula,        r->figure.parts.show,     r->figure.parts.radius,
                                r->figure.parts.arrow[0], r->figure.parts.arrow[1], r->figure.parts.arrow[2]};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        if (all[i] && expression_bind(all[i], &f->frame, f->speed, r->error, sizeof r->error))
+        if (all[i] && cgt_expression_bind(all[i], &f->frame, f->speed, r->error, sizeof r->error))
             return render_fail(r);
     return 0;
 }
@@ -183,7 +184,7 @@ static int bind(view_draw *d, const view_frame *f)
 /* As cgt-render has it where -c gives this camera. */
 static void set_camera(view_draw *d, const cgt_camera *camera)
 {
-    camera_path_fixed(&d->r.figure.path, camera, 0.0);
+    cgt_camera_path_fixed(&d->r.figure.path, camera, 0.0);
     d->r.figure.camera = *camera;
     cgt_figure_choose_light(&d->r.figure);
 }
@@ -197,7 +198,7 @@ int view_draw_set_frame(view_draw *d, const view_frame *f, const cgt_camera *cam
     set_camera(d, camera);
     if (bind(d, f))
         return -1;
-    if (coloring_apply(&r->figure.coloring, &f->frame, f->speed)) {
+    if (cgt_coloring_apply(&r->figure.coloring, &f->frame, f->speed)) {
         program_error("out of memory for the colours");
         return -1;
     }
