@@ -75,7 +75,7 @@ static int parse_grid(const char *text, void *to, char *error, size_t size)
     char part[OPTION_ITEM_SIZE];
     const char *list = text;
     int axis = 0;
-    while (option_next(&list, part)) {
+    while (cgt_option_next(&list, part)) {
         if (axis < 3 && cgt_read_u32(part, 1, 1024, &s->choice.resolution[axis], error, size))
             return -1;
         axis++;
@@ -90,7 +90,7 @@ static int parse_grid(const char *text, void *to, char *error, size_t size)
 static int parse_variant(const char *text, void *to, char *error, size_t size)
 {
     bench_settings *const s = to;
-    const int which = option_find(cgt_get_variant_names(), text, error, size);
+    const int which = cgt_option_find(cgt_get_variant_names(), text, error, size);
     s->choice.variant = which < 0 ? NULL : cgt_get_variant_names()[which];
     return which < 0 ? -1 : 0;
 }
@@ -99,8 +99,8 @@ static int parse_ways(const char *text, void *to, char *error, size_t size)
 {
     bench_settings *const s = to;
     char name[OPTION_ITEM_SIZE];
-    while (option_next(&text, name)) {
-        const int which = option_find(bench_way_names(), name, error, size);
+    while (cgt_option_next(&text, name)) {
+        const int which = cgt_option_find(bench_way_names(), name, error, size);
         size_t i = 0;
         if (which < 0)
             return -1;
@@ -120,7 +120,7 @@ static int parse_batches(const char *text, void *to, char *error, size_t size)
 {
     bench_settings *const s = to;
     char name[OPTION_ITEM_SIZE];
-    while (option_next(&text, name)) {
+    while (cgt_option_next(&text, name)) {
         uint64_t batch = UINT64_MAX;
         size_t at = 0;
         if (strcmp(name, "all") != 0 && cgt_read_u64(name, 1, 100000000, &batch, error, size))
@@ -143,7 +143,7 @@ static int parse_numbers(bench_settings *s, const char *text, uint32_t least, ui
 {
     char name[OPTION_ITEM_SIZE];
     s->counts = 0;
-    while (option_next(&text, name)) {
+    while (cgt_option_next(&text, name)) {
         if (s->counts == BENCH_MOST_COUNTS) {
             snprintf(error, size, "more than %d counts", BENCH_MOST_COUNTS);
             return -1;

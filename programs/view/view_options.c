@@ -92,8 +92,8 @@ static size_t join_rows(option_row rows[OPTIONS_MOST])
 {
     const option_row *heading = NULL;
     size_t count = 0;
-    for (size_t i = 0; i < render_option_table.count && count + 2 + OWN_ROWS < OPTIONS_MOST; i++) {
-        const option_row *const row = &render_option_table.rows[i];
+    for (size_t i = 0; i < render_option_table()->count && count + 2 + OWN_ROWS < OPTIONS_MOST; i++) {
+        const option_row *const row = &render_option_table()->rows[i];
         if (!row->name)
             heading = row;
         if (!row->name)
@@ -163,6 +163,6 @@ void view_options_parse_render(render_options *o, int argc, char **argv)
 {
     options_given given;
     render_options_init(o);
-    options_parse(&render_option_table, o, argc, argv, &given);
+    options_parse(render_option_table(), o, argc, argv, &given);
     o->settings = given.settings;
 }

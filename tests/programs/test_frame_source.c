@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "playback/frames/frame_copy.h"
+#include "data/frame_copy.h"
 #include "playback/survey_run.h"
 
 enum { FRAMES = 70 };
@@ -336,13 +336,13 @@ TEST(copies_outlive_the_frame)
     open_run(&source);
     for (uint64_t number = 0; number < 10; number++) {
         assert_int_equal(frame_source_read(&source, number, error, sizeof error), 1);
-        assert_int_equal(frame_copy_set(&copy, &source.sequence->frame), 0);
+        assert_int_equal(cgt_frame_copy_set(&copy, &source.sequence->frame), 0);
         assert_int_equal(frame_source_read(&source, number + 1, error, sizeof error), 1); /* writes over its arrays */
         assert_int_equal(copy.frame.number, number);
         assert_true(copy.frame.xyzr[0] == (float)(number * (number + 1) / 2));
         frame_source_rewind(&source, error, sizeof error);
     }
-    frame_copy_free(&copy);
+    cgt_frame_copy_free(&copy);
     close_run(&source);
 }
 

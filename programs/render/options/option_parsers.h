@@ -10,7 +10,8 @@
 #include "options/figure_values.h"
 #include "render/options/render_options.h"
 
-extern const option_table render_option_table;
+/* The table of cgt-render; first called by one thread. */
+const option_table *render_option_table(void);
 
 /* render_options.c: an option_table's finish. */
 int render_options_finish(void *options, const char **operands, size_t count, char *error, size_t size);

@@ -87,13 +87,13 @@ void render_options_parse(render_options *options, int argc, char **argv)
         program_error("--settings: %s", error);
         exit(PROGRAM_USAGE);
     }
-    options_parse(&render_option_table, options, arguments.argc, arguments.argv, &given);
+    options_parse(render_option_table(), options, arguments.argc, arguments.argv, &given);
     options->settings = given.settings;
     if (!options->print_settings)
         return;
     if (given.settings) {
         printf("%s", given.settings);
-        options_print_others(&render_option_table, &given);
+        options_print_others(render_option_table(), &given);
     }
     exit(program_exit(given.settings ? PROGRAM_OK : PROGRAM_FAILED));
 }

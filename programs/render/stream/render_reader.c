@@ -60,7 +60,7 @@ static int read_one(render_reader *r, uint64_t chosen)
     if (frame) {
         const double copy = program_seconds();
         swap_index(r, frame);
-        failed = frame_copy_set(&frame->copy, &r->source->sequence->frame);
+        failed = cgt_frame_copy_set(&frame->copy, &r->source->sequence->frame);
         frame->chosen = chosen;
         frame->speed_from = r->source->sequence->speed_from;
         frame->read_ms = (read - begin + program_seconds() - copy) * 1e3;
@@ -147,7 +147,7 @@ void render_reader_finish(render_reader *r)
         r->has_thread = 0;
     }
     for (int i = 0; i < READ_AHEAD; i++) {
-        frame_copy_free(&r->frames[i].copy);
+        cgt_frame_copy_free(&r->frames[i].copy);
         cgt_frame_parts_free(&r->frames[i].parts);
         free(r->frames[i].index);
         r->frames[i].index = NULL;

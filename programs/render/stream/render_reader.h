@@ -12,7 +12,7 @@
 #include "common/program.h"
 #include "common/stop_flag.h"
 #include "color/coloring.h"
-#include "playback/frames/frame_copy.h"
+#include "data/frame_copy.h"
 #include "playback/frame_source.h"
 #include "scene/figure_scene.h"
 

@@ -19,8 +19,8 @@ typedef struct frame_copy {
 /* Copies what drawing takes: spheres, or vertices and their normals. Other arrays of the copy are NULL, but for the
  * triangles' indices, which are those of the trajectory, since all its frames share them. Arrays grow and are used
  * again; a copy begins as all zero. Returns 0, or -1 where there is no memory. */
-int frame_copy_set(frame_copy *copy, const cgt_trajectory_frame *frame);
+int cgt_frame_copy_set(frame_copy *copy, const cgt_trajectory_frame *frame);
 
-void frame_copy_free(frame_copy *copy);
+void cgt_frame_copy_free(frame_copy *copy);
 
 #endif

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Copies of frames; see frame_copy.h. */
-#include "playback/frames/frame_copy.h"
+#include "data/frame_copy.h"
 
 #include <stdint.h>
 #include <stdlib.h>
@@ -26,7 +26,7 @@ static int copy_floats(void **array, size_t *capacity, const float *from, size_t
     return 0;
 }
 
-int frame_copy_set(frame_copy *copy, const cgt_trajectory_frame *frame)
+int cgt_frame_copy_set(frame_copy *copy, const cgt_trajectory_frame *frame)
 {
     const int triangles = frame->kind == CGT_TRAJECTORY_TRIANGLES;
     copy->frame = *frame;
@@ -47,7 +47,7 @@ int frame_copy_set(frame_copy *copy, const cgt_trajectory_frame *frame)
     return 0;
 }
 
-void frame_copy_free(frame_copy *copy)
+void cgt_frame_copy_free(frame_copy *copy)
 {
     free(copy->places);
     free(copy->normals);
