@@ -94,7 +94,8 @@ function(cgt_add_test name)
                                              BUILD_RPATH "${PROJECT_BINARY_DIR}/modules") # readers load a module
     target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests" "${PROJECT_SOURCE_DIR}/src"
                                                "${PROJECT_SOURCE_DIR}/simd" "${PROJECT_SOURCE_DIR}/backends"
-                                               "${PROJECT_SOURCE_DIR}/bench" "${PROJECT_SOURCE_DIR}/picture")
+                                               "${PROJECT_SOURCE_DIR}/bench" "${PROJECT_SOURCE_DIR}/picture"
+                                               "${PROJECT_SOURCE_DIR}/figure")
     target_compile_definitions(${name} PRIVATE "CGT_DATA_DIR=\"${PROJECT_SOURCE_DIR}/examples/data\""
                                                "CGT_TESTS_DIR=\"${PROJECT_SOURCE_DIR}/tests\"")
     foreach(source IN LISTS test_UNPARSED_ARGUMENTS)

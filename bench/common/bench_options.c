@@ -13,14 +13,14 @@
 
 static int parse_camera(const char *text, void *to, char *error, size_t size)
 {
-    return program_parse_camera(text, to, error, size);
+    return cgt_read_camera(text, to, error, size);
 }
 
 static int parse_size(const char *text, void *to, char *error, size_t size)
 {
     bench_settings *const s = to;
     uint32_t width = 0, height = 0;
-    if (program_parse_size(text, &width, &height, error, size))
+    if (cgt_read_size(text, &width, &height, error, size))
         return -1;
     if ((uint64_t)width * height > BENCH_MOST_PIXELS) {
         snprintf(error, size, "%s: more than %lu pixels", text, (unsigned long)BENCH_MOST_PIXELS);
@@ -33,13 +33,13 @@ static int parse_size(const char *text, void *to, char *error, size_t size)
 
 static int parse_light(const char *text, void *to, char *error, size_t size)
 {
-    return program_parse_floats(text, 3, to, error, size);
+    return cgt_read_floats(text, 3, to, error, size);
 }
 
 static int parse_packet(const char *text, void *to, char *error, size_t size)
 {
     bench_settings *const s = to;
-    if (program_parse_u32(text, 4, 16, &s->choice.packet, error, size))
+    if (cgt_read_u32(text, 4, 16, &s->choice.packet, error, size))
         return -1;
     if (s->choice.packet == 4 || s->choice.packet == 8 || s->choice.packet == 16)
         return 0;
@@ -50,7 +50,7 @@ static int parse_packet(const char *text, void *to, char *error, size_t size)
 static int parse_embree_packet(const char *text, void *to, char *error, size_t size)
 {
     bench_settings *const s = to;
-    if (program_parse_u32(text, 1, 16, &s->embree_packet, error, size))
+    if (cgt_read_u32(text, 1, 16, &s->embree_packet, error, size))
         return -1;
     if (s->embree_packet == 1 || s->embree_packet == 4 || s->embree_packet == 8 || s->embree_packet == 16)
         return 0;
@@ -75,8 +75,8 @@ static int parse_grid(const char *text, void *to, char *error, size_t size)
     char part[OPTION_ITEM_SIZE];
     const char *list = text;
     int axis = 0;
-    while (option_next(&list, part)) {
-        if (axis < 3 && program_parse_u32(part, 1, 1024, &s->choice.resolution[axis], error, size))
+    while (cgt_option_next(&list, part)) {
+        if (axis < 3 && cgt_read_u32(part, 1, 1024, &s->choice.resolution[axis], error, size))
             return -1;
         axis++;
     }
@@ -90,7 +90,7 @@ static int parse_grid(const char *text, void *to, char *error, size_t size)
 static int parse_variant(const char *text, void *to, char *error, size_t size)
 {
     bench_settings *const s = to;
-    const int which = option_find(cgt_get_variant_names(), text, error, size);
+    const int which = cgt_option_find(cgt_get_variant_names(), text, error, size);
     s->choice.variant = which < 0 ? NULL : cgt_get_variant_names()[which];
     return which < 0 ? -1 : 0;
 }
@@ -99,8 +99,8 @@ static int parse_ways(const char *text, void *to, char *error, size_t size)
 {
     bench_settings *const s = to;
     char name[OPTION_ITEM_SIZE];
-    while (option_next(&text, name)) {
-        const int which = option_find(bench_way_names(), name, error, size);
+    while (cgt_option_next(&text, name)) {
+        const int which = cgt_option_find(bench_way_names(), name, error, size);
         size_t i = 0;
         if (which < 0)
             return -1;
@@ -120,10 +120,10 @@ static int parse_batches(const char *text, void *to, char *error, size_t size)
 {
     bench_settings *const s = to;
     char name[OPTION_ITEM_SIZE];
-    while (option_next(&text, name)) {
+    while (cgt_option_next(&text, name)) {
         uint64_t batch = UINT64_MAX;
         size_t at = 0;
-        if (strcmp(name, "all") != 0 && program_parse_u64(name, 1, 100000000, &batch, error, size))
+        if (strcmp(name, "all") != 0 && cgt_read_u64(name, 1, 100000000, &batch, error, size))
             return -1;
         while (at < s->batches && s->batch[at] < batch)
             at++;
@@ -143,12 +143,12 @@ static int parse_numbers(bench_settings *s, const char *text, uint32_t least, ui
 {
     char name[OPTION_ITEM_SIZE];
     s->counts = 0;
-    while (option_next(&text, name)) {
+    while (cgt_option_next(&text, name)) {
         if (s->counts == BENCH_MOST_COUNTS) {
             snprintf(error, size, "more than %d counts", BENCH_MOST_COUNTS);
             return -1;
         }
-        if (program_parse_u32(name, least, most, &s->count[s->counts++], error, size))
+        if (cgt_read_u32(name, least, most, &s->count[s->counts++], error, size))
             return -1;
     }
     return 0;

@@ -96,7 +96,7 @@ static void set_defaults(bench_settings *s, const subject *of)
     cgt_camera_init(&s->camera);
     s->camera.eye[2] = -5.0f;
     if (of->subject & (BENCH_BOUNCES | BENCH_LIGHT | BENCH_RAYS)) {
-        const int failed = program_parse_camera(PROCEDURAL_CAMERA, &s->camera, error, sizeof error);
+        const int failed = cgt_read_camera(PROCEDURAL_CAMERA, &s->camera, error, sizeof error);
         assert(!failed);
         (void)failed;
     }

@@ -33,7 +33,7 @@ class Libcgt(ConanFile):
     def export_sources(self):
         for name in ("CMakeLists.txt", "LICENSE", "NEWS", "README.md", "CONTRIBUTING.md"):
             copy(self, name, self._top, self.export_sources_folder)
-        for folder in ("backends", "cmake", "docs", "examples", "include", "mpi", "picture", "programs", "simd", "src"):
+        for folder in ("backends", "cmake", "docs", "examples", "figure", "include", "mpi", "picture", "programs", "simd", "src"):
             copy(self, "*", os.path.join(self._top, folder), os.path.join(self.export_sources_folder, folder))
 
     def configure(self):

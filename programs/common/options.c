@@ -11,6 +11,7 @@
 
 #include "common/option_help.h"
 #include "common/program.h"
+#include "options/numbers.h"
 
 typedef struct options_state {
     const option_table *table;
@@ -22,59 +23,6 @@ typedef struct options_state {
 } options_state;
 
 /* ---- Words -------------------------------------------------------------------------------------------------- */
-
-static const char separators[] = ", ";
-
-int option_find_word(const char *list, const char *word)
-{
-    const size_t length = strlen(word);
-    for (int i = 0; *list; i++) {
-        const size_t size = strcspn(list, separators);
-        if (size == length && memcmp(list, word, size) == 0)
-            return i;
-        list += size + strspn(list + size, separators);
-    }
-    return -1;
-}
-
-/* "is not A, B or C". */
-static void refuse_word(const char *text, const char *list, char *error, size_t size)
-{
-    size_t used = (size_t)snprintf(error, size, "\"%.80s\" is not ", text);
-    for (const char *between = ""; *list && used < size;) {
-        const size_t length = strcspn(list, separators);
-        used += (size_t)snprintf(error + used, size - used, "%s%.*s", between, (int)length, list);
-        list += length + strspn(list + length, separators);
-        between = list[strcspn(list, separators)] ? ", " : " or ";
-    }
-}
-
-int option_find(const char *const *names, const char *name, char *error, size_t error_size)
-{
-    int which = 0;
-    while (names[which] && strcmp(name, names[which]) != 0)
-        which++;
-    if (names[which])
-        return which;
-    size_t used = (size_t)snprintf(error, error_size, "\"%.80s\" is not ", name);
-    for (which = 0; names[which] && used < error_size; which++)
-        used += (size_t)snprintf(error + used, error_size - used, "%s%s",
-                                 !which             ? ""
-                                 : names[which + 1] ? ", "
-                                                    : " or ",
-                                 names[which]);
-    return -1;
-}
-
-int option_next(const char **list, char item[OPTION_ITEM_SIZE])
-{
-    if (!*list)
-        return 0;
-    const size_t length = strcspn(*list, ",");
-    snprintf(item, OPTION_ITEM_SIZE, "%.*s", length < OPTION_ITEM_SIZE ? (int)length : OPTION_ITEM_SIZE, *list);
-    *list = (*list)[length] ? *list + length + 1 : NULL;
-    return 1;
-}
 
 /* For the completion of a shell: the words of an option, by its name or letter, in one line. */
 static void print_words(const option_table *table, const char *name)
@@ -91,70 +39,6 @@ static void print_words(const option_table *table, const char *name)
         if (row->words || row->names)
             putchar('\n');
     }
-}
-
-/* ---- Values ------------------------------------------------------------------------------------------------- */
-
-static int set_word(const option_row *row, const char *text, void *to, char *error, size_t size)
-{
-    const int word = row->names ? option_find(row->names, text, error, size) : option_find_word(row->words, text);
-    if (word < 0) {
-        if (!row->names)
-            refuse_word(text, row->words, error, size);
-        return -1;
-    }
-    if (row->type == OPTION_NAME)
-        *(const char **)to = text;
-    else
-        *(int *)to = (int)row->first + word;
-    return 0;
-}
-
-static int set_list(const option_row *row, const char *list, int *chosen, char *error, size_t size)
-{
-    char item[OPTION_ITEM_SIZE];
-    while (option_next(&list, item)) {
-        const int which = option_find(row->names, item, error, size);
-        if (which < 0)
-            return -1;
-        chosen[which] = 1;
-    }
-    return 0;
-}
-
-static int set_double(const option_row *row, const char *text, double *to, char *error, size_t size)
-{
-    float value;
-    if (program_parse_float(text, (float)row->low, (float)row->high, &value, error, size))
-        return -1;
-    *to = (double)value;
-    return 0;
-}
-
-static int set_value(const option_row *row, const char *text, void *options, char *error, size_t size)
-{
-    void *const to = (char *)options + row->at;
-    if (row->given)
-        *(int *)(void *)((char *)options + row->given - 1) = 1;
-    if (row->given_bool)
-        *(bool *)(void *)((char *)options + row->given_bool - 1) = true;
-    if (row->value && !text && !(text = row->otherwise))
-        return 0;
-    switch (row->type) {
-    case OPTION_FLAG: *(int *)to = (int)row->first; return 0;
-    case OPTION_BOOL: *(bool *)to = true; return 0;
-    case OPTION_TEXT: *(const char **)to = text; return 0;
-    case OPTION_WORD:
-    case OPTION_NAME: return set_word(row, text, to, error, size);
-    case OPTION_LIST: return set_list(row, text, to, error, size);
-    case OPTION_FLOAT: return program_parse_float(text, (float)row->low, (float)row->high, to, error, size);
-    case OPTION_DOUBLE: return set_double(row, text, to, error, size);
-    case OPTION_U32: return program_parse_u32(text, (uint32_t)row->first, (uint32_t)row->last, to, error, size);
-    case OPTION_U64: return program_parse_u64(text, row->first, row->last, to, error, size);
-    case OPTION_PARSED: return row->parse(text, to, error, size);
-    case OPTION_REFUSED: snprintf(error, size, "%s", row->help); return -1;
-    }
-    return 0;
 }
 
 /* ---- The command line --------------------------------------------------------------------------------------- */
@@ -217,7 +101,7 @@ static void take_option(options_state *s, size_t i, const char *value)
     char error[PROGRAM_ERROR_SIZE] = "";
     if (i >= s->table->count)
         do_standard(s, i - s->table->count, value);
-    if (set_value(row, value, s->options, error, sizeof error)) {
+    if (cgt_option_set(row, value, s->options, error, sizeof error)) {
         if (s->table->names_letters && row->letter)
             refuse(s, "-%c: %s", row->letter, error);
         refuse(s, "--%s: %s", row->name, error);
@@ -337,5 +221,5 @@ void options_print_others(const option_table *table, const options_given *given)
 
 int option_parse_origin(const char *text, void *to, char *error, size_t error_size)
 {
-    return program_parse_doubles(text, 3, to, error, error_size);
+    return cgt_read_doubles(text, 3, to, error, error_size);
 }

@@ -1,8 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What the programs share: version text, exit codes, numbers and cameras from the command line, progress.
- * A parser returns 0, or -1 with a sentence in error. One that fails changes none of its results. */
+ * What the programs share: exit codes, errors, progress. */
 #ifndef PROGRAM_H
 #define PROGRAM_H
 
@@ -36,31 +35,6 @@ void program_set_error_sink(program_error_sink *sink, void *user);
 /* Flushes standard output and returns `code`; PROGRAM_FAILED with a message where the output could not be written
  * (a full disk, a closed pipe) and code was PROGRAM_OK. Last call of main. */
 int program_exit(int code);
-
-/* A whole number from min to max, decimal digits only. */
-int program_parse_u64(const char *text, uint64_t min, uint64_t max, uint64_t *value, char *error, size_t error_size);
-int program_parse_u32(const char *text, uint32_t min, uint32_t max, uint32_t *value, char *error, size_t error_size);
-
-/* A finite number from min to max, both included. */
-int program_parse_float(const char *text, float min, float max, float *value, char *error, size_t error_size);
-
-/* Exactly `count` finite numbers with commas between them; count is at most 16. */
-int program_parse_floats(const char *text, size_t count, float *values, char *error, size_t error_size);
-
-/* The same in double. */
-int program_parse_doubles(const char *text, size_t count, double *values, char *error, size_t error_size);
-
-/* A picture's size, "1280x720": each edge 1 to 65,536 pixels. */
-int program_parse_size(const char *text, uint32_t *width, uint32_t *height, char *error, size_t error_size);
-
-/* A camera, "ex,ey,ez,tx,ty,tz,ux,uy,uz,fov": eye, target, up, vertical angle in degrees. Sets projection, eye,
- * target, up and fov and leaves the rest of camera as it is. Refuses eye = target, an up that is zero or parallel to
- * the view, and an angle that is not above 0 and below 180. */
-int program_parse_camera(const char *text, cgt_camera *camera, char *error, size_t error_size);
-
-/* The same, with eye and target also in double: so near to each other that single precision may not tell them apart. */
-int program_parse_far_camera(const char *text, cgt_camera *camera, double eye[3], double target[3], char *error,
-                             size_t error_size);
 
 /* Progress on standard error: one line that is rewritten on a terminal, a plain line about every five seconds
  * elsewhere. Start, then update at any rate (output is limited), then end. */

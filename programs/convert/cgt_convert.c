@@ -8,7 +8,7 @@
 #include "common/options.h"
 #include "common/out_file.h"
 #include "common/program.h"
-#include "playback/origin.h"
+#include "survey/origin.h"
 #include "trajectory/trajectory_formats.h"
 #include "trajectory/trajectory_status.h"
 
@@ -164,9 +164,9 @@ static int find_origin(const cgt_trajectory_frame *frame, double origin[3])
     for (uint32_t i = 0; i < frame->count && frame->kind == CGT_TRAJECTORY_SPHERES; i++) {
         const float *const p = frame->xyzr + 4 * (size_t)i;
         if (isfinite(p[0] + p[1] + p[2] + p[3]))
-            bulk_add(&b, 0, i, i, p, p[3]);
+            cgt_bulk_add(&b, 0, i, i, p, p[3]);
     }
-    return origin_of_bulk(&b, origin);
+    return cgt_origin_of_bulk(&b, origin);
 }
 
 /* Reads the frame `number`. The first one that is converted decides on the origin of all, and is read again. */
@@ -186,7 +186,8 @@ static int read_frame(conversion *c, uint64_t number, cgt_trajectory_frame *fram
             origin[0], origin[1], origin[2]);
         return result;
     }
-    origin_tell(origin, "the spheres are");
+    cgt_origin_tell(origin, "the spheres are", c->error, sizeof c->error);
+    program_error("%s", c->error);
     cgt_trajectory_set_origin(c->from, origin);
     result = trajectory_status(c->from, cgt_trajectory_rewind(c->from), c->error, sizeof c->error);
     for (uint64_t k = 0; k < number && result > 0; k++)

@@ -24,19 +24,19 @@ static stop_flag stop; /* set by the first signal: the run ends after the curren
 static int build_frame(renderer *r, const frame_parts *parts, frame_record *record, cgt_scene_statistics *stats,
                        cgt_research_scene_statistics *research)
 {
-    const cgt_trajectory_frame *frame = r->frame;
-    if (render_scene_set(r, parts))
+    const cgt_trajectory_frame *frame = r->figure.frame;
+    if (render_result(r, cgt_figure_scene_set(&r->figure, parts)))
         return -1;
     r->report.kind = frame->kind;
     const double begin = program_seconds();
-    cgt_result result = cgt_scene_commit(r->scene);
+    cgt_result result = cgt_scene_commit(r->figure.scene);
     record->build_ms = (program_seconds() - begin) * 1e3;
     if (!result)
-        result = cgt_scene_get_statistics(r->scene, stats);
+        result = cgt_scene_get_statistics(r->figure.scene, stats);
     if (!result)
-        result = cgt_research_get_scene_statistics(r->scene, research);
+        result = cgt_research_get_scene_statistics(r->figure.scene, research);
     if (result)
-        return render_fail_library(r, "build", result);
+        return render_result(r, cgt_figure_fail_library(&r->figure, "build", result));
     record->primitives = frame_primitives(frame);
     record->skipped_not_finite = stats->skipped_not_finite;
     record->skipped_radius = stats->skipped_radius;
@@ -49,7 +49,7 @@ static int trace_frame(renderer *r, frame_record *record, render_counts *stats)
 {
     const cgt_research_trace_options research = {.statistics = &stats->research};
     cgt_trace_options options;
-    render_camera_at(r, r->frame->number, &r->camera);
+    cgt_figure_camera_at(&r->figure, r->figure.frame->number, &r->figure.camera);
     cgt_trace_options_init(&options);
     if (r->options.stats) {
         options.statistics = &stats->trace;
@@ -58,12 +58,12 @@ static int trace_frame(renderer *r, frame_record *record, render_counts *stats)
     if (r->cell)
         return render_cell_frame(r, record);
     const double begin = program_seconds();
-    const cgt_result result = render_picture_trace(r, &options);
+    const cgt_result result = cgt_figure_trace(&r->figure, &options);
     record->trace_ms = (program_seconds() - begin) * 1e3;
-    record->hits = cgt_picture_get_hits(r->drawing);
+    record->hits = cgt_picture_get_hits(r->figure.drawing);
     if (result == CGT_ERROR_STOPPED && stop)
         return 1;
-    return result ? render_fail_picture(r, result) : 0;
+    return result ? render_result(r, cgt_figure_fail_picture(&r->figure, result)) : 0;
 }
 
 /* Draws a frame that was read and hands its picture over. Returns 0, -1 on an error, 1 where a signal stopped it. */
@@ -75,20 +75,20 @@ static int render_frame(renderer *r, read_frame *read)
         return -1;
     writer_done *const done = &picture->done;
     memset(&traced, 0, sizeof traced);
-    r->frame = &read->copy.frame;
-    r->coloring.index = read->index;
-    r->coloring.per_vertex = read->per_vertex;
-    r->speed_from = read->speed_from;
-    r->image = (cgt_image){.bytes = picture->rgb, .alpha = picture->alpha, .linear = picture->pixels};
+    r->figure.frame = &read->copy.frame;
+    r->figure.coloring.index = read->index;
+    r->figure.coloring.per_vertex = read->per_vertex;
+    r->figure.speed_from = read->speed_from;
+    r->figure.image = (cgt_image){.bytes = picture->rgb, .alpha = picture->alpha, .linear = picture->pixels};
     picture->chosen = read->chosen;
-    done->record.number = r->frame->number;
-    done->record.step = r->frame->step;
+    done->record.number = r->figure.frame->number;
+    done->record.step = r->figure.frame->step;
     done->record.read_ms = read->read_ms;
     done->record.color_ms = read->color_ms;
     int result = r->cell ? 0 : build_frame(r, &read->parts, &done->record, &done->scene, &traced.scene);
     if (result == 0)
         result = trace_frame(r, &done->record, &traced);
-    r->coloring.index = NULL; /* the reader's */
+    r->figure.coloring.index = NULL; /* the reader's */
     if (result)
         return result;
     done->counted = r->options.stats;
@@ -165,15 +165,16 @@ static int write_contact_sheet(renderer *r)
 /* How a range was found that the command line does not give. */
 static void print_range_rule(const renderer *r, FILE *to)
 {
-    const survey *const s = &r->survey;
-    const int is_formula = r->coloring.by == COLORING_VALUE;
+    const survey *const s = &r->figure.survey;
+    const int is_formula = r->figure.coloring.by == COLORING_VALUE;
     double min, max;
-    if (r->options.has_range || !r->has_survey || (!is_formula && r->coloring.by != COLORING_SPEED))
+    if (r->figure.options.has_range || !r->figure.has_survey ||
+        (!is_formula && r->figure.coloring.by != COLORING_SPEED))
         return;
     if (is_formula && s->value_min < s->value_max)
         fprintf(to, ", the %s of values from %g to %g",
-                survey_value_range(s, r->options.logarithmic, &min, &max) ? "1 % and the 99 % quantile"
-                                                                          : "least and the greatest",
+                cgt_survey_value_range(s, r->figure.options.logarithmic, &min, &max) ? "1 % and the 99 % quantile"
+                                                                                     : "least and the greatest",
                 s->value_min, s->value_max);
     else if (is_formula)
         fprintf(to, s->values ? ", which all values are" : ", since no value is finite");
@@ -191,22 +192,26 @@ static void print_summary(const renderer *r)
     char name[4096];
     if (r->report.count == 0)
         return;
-    fprintf(to, "%s: %" PRIu32 "x%" PRIu32, o->input, o->width, o->height);
-    if (o->samples > 1)
-        fprintf(to, ", %" PRIu32 " rays a pixel", o->samples * o->samples);
+    fprintf(to, "%s: %" PRIu32 "x%" PRIu32, o->input, o->figure.width, o->figure.height);
+    if (o->figure.samples > 1)
+        fprintf(to, ", %" PRIu32 " rays a pixel", o->figure.samples * o->figure.samples);
     fprintf(to, ", %" PRIu32 " thread%s, variant %s\n", cgt_context_get_threads(r->context),
             cgt_context_get_threads(r->context) == 1 ? "" : "s", cgt_context_get_variant(r->context));
     fprintf(to, "camera            -c ");
-    renderer_print_camera(r, &r->path.start, to);
-    fprintf(to, "colour            %s", r->coloring.by == COLORING_VALUE ? o->formula : names[r->coloring.by]);
-    if (r->coloring.by != COLORING_TYPE && r->coloring.by != COLORING_PLAIN && r->coloring.by != COLORING_ELEMENT)
-        fprintf(to, " from %g to %g", r->coloring.min, r->coloring.max);
+    renderer_print_camera(r, &r->figure.path.start, to);
+    fprintf(to, "colour            %s",
+            r->figure.coloring.by == COLORING_VALUE ? o->figure.formula : names[r->figure.coloring.by]);
+    if (r->figure.coloring.by != COLORING_TYPE && r->figure.coloring.by != COLORING_PLAIN &&
+        r->figure.coloring.by != COLORING_ELEMENT)
+        fprintf(to, " from %g to %g", r->figure.coloring.min, r->figure.coloring.max);
     print_range_rule(r, to);
-    if (r->coloring.by == COLORING_SPEED)
+    if (r->figure.coloring.by == COLORING_SPEED)
         fprintf(to, ", %s",
-                r->speed_from == SPEED_FROM_VELOCITY ? "the file's velocities" : "by change of position, a frame");
+                r->figure.speed_from == SPEED_FROM_VELOCITY ? "the file's velocities"
+                                                            : "by change of position, a frame");
     fprintf(to, "\n");
-    render_report_print(&r->report, (uint64_t)o->width * o->height * o->samples * o->samples,
+    render_report_print(&r->report,
+                        (uint64_t)o->figure.width * o->figure.height * o->figure.samples * o->figure.samples,
                         o->output_count + (r->sheet != NULL), to);
     render_cell_print(r->cell, to);
     for (uint32_t i = 0; i < o->output_count; i++) {

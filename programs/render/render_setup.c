@@ -10,7 +10,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+
+#include "trajectory/trajectory_status.h"
 
 int render_fail(renderer *r)
 {
@@ -18,25 +19,21 @@ int render_fail(renderer *r)
     return -1;
 }
 
-static int fail_frame(const renderer *r, const char *action, const char *message, cgt_result result)
+int render_result(renderer *r, int result)
 {
-    program_error("%s: frame %" PRIu64 ": cannot %s: %s", r->options.input, r->frame ? r->frame->number : 0, action,
-                  *message ? message : cgt_get_result_string(result));
-    return -1;
+    const char *notice;
+    while ((notice = cgt_notices_take(&r->figure.notices)) != NULL)
+        program_error("%s", notice);
+    if (result)
+        program_error("%s", r->figure.message);
+    return result;
 }
 
-int render_fail_library(renderer *r, const char *action, cgt_result result)
+void renderer_print_camera(const renderer *r, const cgt_camera *camera, FILE *to)
 {
-    char message[512];
-    cgt_context_get_error_message(r->context, message, sizeof message);
-    return fail_frame(r, action, message, result);
-}
-
-int render_fail_picture(renderer *r, cgt_result result)
-{
-    char message[512];
-    cgt_picture_get_error_message(r->drawing, message, sizeof message);
-    return fail_frame(r, "trace", message, result);
+    char text[FIGURE_CAMERA_SIZE];
+    cgt_figure_name_camera(&r->figure, camera, text);
+    fputs(text, to);
 }
 
 static void on_log(void *user, cgt_log_level level, const char *message)
@@ -69,31 +66,10 @@ static int make_folders(renderer *r)
 /* Whether an output or the camera's path needs the number of frames. */
 static int needs_count(const render_options *o)
 {
-    int needs = o->orbit != 0.0f || o->contact_sheet || o->output.parts > 1;
+    int needs = o->figure.orbit != 0.0f || o->contact_sheet || o->output.parts > 1;
     for (uint32_t i = 0; i < o->output_count; i++)
         needs |= !o->outputs[i].numbered && render_output_kind(o->outputs[i].pattern) == OUTPUT_PICTURE;
     return needs;
-}
-
-/* Whether types or elements are to be named, which are those of all frames. */
-static int has_legend(const render_options *o)
-{
-    return (o->picture.legend || o->picture.bar) &&
-           (o->by == COLORING_AUTO || o->by == COLORING_TYPE || o->by == COLORING_ELEMENT);
-}
-
-/* How many frames must be looked at before the first is rendered: all, the first, which tells the kind and whether
- * there are types, or none. */
-static uint64_t needs_frames(const render_options *o)
-{
-    const int measured =
-        o->by != COLORING_TYPE && o->by != COLORING_PLAIN && o->by != COLORING_AUTO && o->by != COLORING_ELEMENT;
-    if (!o->has_camera || (measured && !o->has_range) || (o->floor.is_set && !o->floor.has_place))
-        return o->output.survey;
-    if (has_legend(o))
-        return o->output.survey;
-    /* the up axis depends on the kind, and meshes of glass are as dark as they are large */
-    return o->by == COLORING_AUTO || o->by == COLORING_HEIGHT || o->bounce.count;
 }
 
 /* The number of chosen frames, where it is known. A run that grows, or ends in an error, has no end before its readers
@@ -101,9 +77,9 @@ static uint64_t needs_frames(const render_options *o)
 static int choose_frames(renderer *r)
 {
     const render_options *o = &r->options;
-    const uint64_t chosen = frame_range_count(&o->range, r->survey.total);
+    const uint64_t chosen = frame_range_count(&o->range, r->figure.survey.total);
     r->count = UINT64_MAX;
-    if (!r->has_survey || !r->survey.has_total)
+    if (!r->figure.has_survey || !r->figure.survey.has_total)
         return 0;
     if (chosen == 0) {
         program_error("%s: there is no frame%s", o->input,
@@ -130,93 +106,102 @@ static int choose_frames(renderer *r)
     return 0;
 }
 
-/* Looks at the first frame, which may be enough for automatic colours: 1 where it is. */
-static int is_decided(const renderer *r)
-{
-    const survey *s = &r->survey;
-    if (s->kind == CGT_TRAJECTORY_TRIANGLES && r->options.bounce.count)
-        return 0;
-    return r->options.by != COLORING_AUTO || s->kind == CGT_TRAJECTORY_TRIANGLES || s->has_element ||
-           s->type_max > s->type_min;
-}
-
-/* What the automatic camera asks of the survey, before the kind of the file is known. */
-static void begin_fit(renderer *r)
-{
-    for (int kind = 0; kind < 2; kind++) {
-        render_options o = r->options;
-        render_options_axes(&o, kind ? CGT_TRAJECTORY_TRIANGLES : CGT_TRAJECTORY_SPHERES);
-        cgt_camera_directions_set(&r->fit[kind], o.view, o.up, o.fov, (double)o.width / (double)o.height,
-                                  (double)o.orbit, o.picture.ortho);
-    }
-}
-
 /* What must be known of the input: a look at its first frame, and where that does not tell, at all. */
 static int survey_input(renderer *r)
 {
     render_options *o = &r->options;
-    survey_plan plan = {
-        .most = needs_frames(o), .count = needs_count(o), .quiet = o->quiet, .stop = r->stop, .context = r->context};
+    cgt_figure *const figure = &r->figure;
+    survey_plan plan = {.most = cgt_figure_needs_frames(figure, o->output.survey),
+                        .count = needs_count(o),
+                        .quiet = o->quiet,
+                        .stop = r->stop,
+                        .context = r->context};
     if (plan.most == 0 && !plan.count)
         return 0;
-    if (!o->has_camera) {
-        begin_fit(r);
-        plan.fit = r->fit;
-    }
+    plan.fit = cgt_figure_begin_fit(figure);
     cgt_trajectory_set_follow(r->source.file, 0.0); /* the survey takes what is there */
-    r->has_survey = 1;
-    if (plan.most == 1 && survey_run(&r->source, &plan, &r->survey, r->error, sizeof r->error))
+    figure->has_survey = 1;
+    if (plan.most == 1 && survey_run(&r->source, &plan, &figure->survey, r->error, sizeof r->error))
         return render_fail(r);
-    if (plan.most == 1 && !is_decided(r))
+    if (plan.most == 1 && !cgt_figure_is_decided(figure))
         plan.most = o->output.survey;
-    if (plan.most != 1 && survey_run(&r->source, &plan, &r->survey, r->error, sizeof r->error))
+    if (plan.most != 1 && survey_run(&r->source, &plan, &figure->survey, r->error, sizeof r->error))
         return render_fail(r);
     cgt_trajectory_set_follow(r->source.file, o->reading.follow);
     return 0;
 }
 
 /* What is no atom is left out unless the formula of --show names it. */
-static int shows_sites(const render_options *o)
+static int shows_sites(const figure_options *o)
 {
     char error[256];
-    expression *const show = *o->particles.show ? expression_parse(o->particles.show, error, sizeof error) : NULL;
-    const int uses = show && expression_uses(show, "site");
-    expression_free(show);
+    expression *const show = *o->particles.show ? cgt_expression_parse(o->particles.show, error, sizeof error) : NULL;
+    const int uses = show && cgt_expression_uses(show, "site");
+    cgt_expression_free(show);
     return uses;
+}
+
+static int open_figure(renderer *r)
+{
+    cgt_figure *const figure = &r->figure;
+    figure->options = r->options.figure;
+    figure->source = r->options.input;
+    figure->context = r->context;
+    figure->stop = stop_flag_is_set;
+    figure->stop_user = r->stop;
+    figure->has_origin = r->options.reading.has_origin;
+    return render_result(r, cgt_figure_open(figure));
 }
 
 static int open_first(renderer *r)
 {
     render_options *o = &r->options;
-    if (o->by == COLORING_VALUE && !(r->formula = expression_parse(o->formula, r->error, sizeof r->error)))
-        return render_fail(r);
-    const int with_speed =
-        o->by == COLORING_AUTO || o->by == COLORING_SPEED || (r->formula && expression_uses(r->formula, "speed"));
-    o->reading.keep = needs_frames(o) > 0 || needs_count(o) || with_speed; /* which read the input twice */
-    o->reading.all_bonds = (o->particles.bonds && !(o->particles.bond_distance > 0.0f)) || o->whole || o->unwrap;
-    o->reading.leave_out_sites = !shows_sites(o);
+    const figure_options *f = &o->figure;
+    cgt_trajectory_sort_series(o->inputs, o->input_count);
+    o->input = o->inputs[0];
+    if (open_figure(r))
+        return -1;
+    /* which read the input twice */
+    o->reading.keep =
+        cgt_figure_needs_frames(&r->figure, o->output.survey) > 0 || needs_count(o) || r->figure.sequence.tracker;
+    o->reading.all_bonds = (f->particles.bonds && !(f->particles.bond_distance > 0.0f)) || f->whole || f->unwrap;
+    o->reading.leave_out_sites = !shows_sites(f);
     o->reading.stop = stop_flag_is_set;
     o->reading.stop_user = r->stop;
     o->reading.threads = cgt_context_get_threads(r->context);
-    cgt_trajectory_sort_series(o->inputs, o->input_count);
-    o->input = o->inputs[0];
-    if (frame_source_open(&r->source, o->inputs, o->input_count, &o->reading, with_speed ? r->context : NULL, r->error,
+    if (frame_source_open(&r->source, &r->figure.sequence, o->inputs, o->input_count, &o->reading, r->error,
                           sizeof r->error))
         return render_fail(r);
-    r->source.wants_kinds = has_legend(o);
     r->source.keep.most = (size_t)o->memory_mib * (1024 * 1024);
-    if (frame_source_unwrap(&r->source,
-                            o->whole    ? UNWRAP_WHOLE
-                            : o->unwrap ? UNWRAP_IMAGES
-                                        : UNWRAP_NOT,
-                            r->error, sizeof r->error) ||
-        frame_source_bind(&r->source, r->formula, r->error, sizeof r->error))
+    if (frame_source_want_columns(&r->source, r->error, sizeof r->error))
         return render_fail(r);
-    if (render_scene_open(r))
-        return -1;
-    cgt_trajectory_get_origin(r->source.file, r->origin);
-    render_choose_camera_origin(r);
+    r->figure.is_mesh = cgt_trajectory_get_mesh(r->source.file) != NULL;
+    cgt_trajectory_get_origin(r->source.file, r->figure.origin);
+    if (cgt_figure_choose_camera_origin(&r->figure))
+        cgt_trajectory_set_origin(r->source.file, r->figure.origin);
+    render_result(r, 0);
     return survey_input(r);
+}
+
+/* The mesh's first frame, which stays as long as the file is open. */
+static int open_mesh(renderer *r)
+{
+    const char *const path = r->options.mesh;
+    cgt_trajectory_frame mesh;
+    if (!path)
+        return 0;
+    const cgt_result opened = cgt_trajectory_open(path, NULL, &r->mesh);
+    if (trajectory_failed(r->mesh, opened, r->error, sizeof r->error))
+        return render_fail(r);
+    cgt_trajectory_set_origin(r->mesh, r->figure.origin);
+    const int read = trajectory_status(r->mesh, cgt_trajectory_read(r->mesh, &mesh), r->error, sizeof r->error);
+    if (read < 0)
+        return render_fail(r);
+    if (read == 0 || mesh.kind != CGT_TRAJECTORY_TRIANGLES) {
+        program_error("--mesh: %s has no triangles", path);
+        return -1;
+    }
+    return render_result(r, cgt_figure_set_mesh(&r->figure, &mesh));
 }
 
 static int open_report(renderer *r)
@@ -228,43 +213,37 @@ static int open_input(renderer *r)
 {
     if (make_folders(r) || open_report(r) || open_first(r))
         return -1;
-    if (render_choose_bulk_origin(r)) {
+    if (cgt_figure_choose_bulk_origin(&r->figure)) {
+        cgt_trajectory_set_origin(r->source.file, r->figure.origin);
+        render_result(r, 0);
         if (frame_source_rewind(&r->source, r->error, sizeof r->error))
             return render_fail(r);
         if (survey_input(r))
             return -1;
     }
-    if (render_move_cameras(r))
+    if (render_result(r, cgt_figure_move_cameras(&r->figure)))
         return -1;
-    if (r->has_survey)
-        render_options_axes(&r->options, r->survey.kind);
     return choose_frames(r);
-}
-
-static int choose_ambient(const renderer *r)
-{
-    const style_values *const s = style_get(r->options.picture.style);
-    return cgt_trajectory_get_mesh(r->source.file) ? s->mesh_ambient : s->ambient;
 }
 
 static int prepare_pictures(renderer *r)
 {
     const render_options *o = &r->options;
-    if (o->picture.ambient < 0)
-        r->options.picture.ambient = choose_ambient(r);
-    if (o->contact_sheet)
-        r->sheet = contact_sheet_create(o->sheet_columns, o->sheet_rows, r->count, o->width, o->height);
-    if (o->contact_sheet && !r->sheet) {
-        program_error("out of memory for a contact sheet of pictures of %" PRIu32 "x%" PRIu32 " pixels", o->width,
-                      o->height);
+    if (o->figure.bounce.is_set && o->cell.mode) {
+        program_error("--bounces and --cell exclude each other");
         return -1;
     }
-    camera_path_at(&r->path, 0.0, &r->camera);
-    render_choose_light(r);
-    if (r->options.floor.is_set)
-        render_scene_floor(r);
-    if (r->options.bounce.is_set && render_bounce_create(r))
+    if (o->figure.bounce.is_set && o->stats) {
+        program_error("--stats counts the camera's rays, and with --bounces those are the fewest");
         return -1;
+    }
+    if (o->contact_sheet)
+        r->sheet = contact_sheet_create(o->sheet_columns, o->sheet_rows, r->count, o->figure.width, o->figure.height);
+    if (o->contact_sheet && !r->sheet) {
+        program_error("out of memory for a contact sheet of pictures of %" PRIu32 "x%" PRIu32 " pixels",
+                      o->figure.width, o->figure.height);
+        return -1;
+    }
     return render_picture_setup(r);
 }
 
@@ -285,14 +264,8 @@ static int create_context(renderer *r)
     return result ? -1 : 0;
 }
 
-static int create_scene(renderer *r)
-{
-    const cgt_result result = cgt_scene_create(r->context, NULL, &r->scene);
-    return result ? render_fail_library(r, "make a scene", result) : 0;
-}
-
 /* Tells once for a run where its bonds come from. */
-static int check_bonds(const render_options *o, const cgt_trajectory_frame *frame)
+static int check_bonds(const figure_options *o, const cgt_trajectory_frame *frame)
 {
     const char *const asks = o->particles.bonds && !(o->particles.bond_distance > 0.0f) ? "--bonds"
                              : o->whole                                                 ? "--whole"
@@ -317,7 +290,7 @@ int render_check_kind(void *user, const cgt_trajectory_frame *frame)
     const render_options *o = &r->options;
     const int triangles = frame->kind == CGT_TRAJECTORY_TRIANGLES;
     const char *wrong = NULL;
-    if (triangles && r->coloring.by == COLORING_TYPE && !frame->type)
+    if (triangles && r->figure.coloring.by == COLORING_TYPE && !frame->type)
         wrong = "--color type: the triangles of this file have no types; id, speed, height or RRGGBB will do";
     else if (triangles && (o->reading.radius > 0.0f || o->reading.wrapped))
         wrong = "--radius and --wrapped are for spheres, and this is a file of triangles";
@@ -325,7 +298,7 @@ int render_check_kind(void *user, const cgt_trajectory_frame *frame)
         wrong = "--fps and --clip are for meshes, and this is a file of spheres";
     if (wrong)
         program_error("%s: %s", o->input, wrong);
-    return wrong || check_bonds(o, frame) ? -1 : 0;
+    return wrong || check_bonds(&o->figure, frame) ? -1 : 0;
 }
 
 /* The end of the chosen frames that this run may render; UINT64_MAX: where the input ends. */
@@ -333,7 +306,7 @@ static uint64_t end_of_frames(const renderer *r)
 {
     const frame_range *range = &r->options.range;
     const uint64_t known = r->count > UINT64_MAX - r->begin ? UINT64_MAX : r->begin + r->count;
-    const int open_end = r->options.reading.follow > 0.0 || (r->has_survey && r->survey.is_cut);
+    const int open_end = r->options.reading.follow > 0.0 || (r->figure.has_survey && r->figure.survey.is_cut);
     const int last_part = r->options.output.part == r->options.output.parts;
     const uint64_t end = open_end && last_part ? UINT64_MAX : known;
     /* --last holds where nobody knows how many frames there are, too */
@@ -355,30 +328,32 @@ static int start_threads(renderer *r)
     writer->text_count = r->text_count;
     if (render_writer_start(writer))
         return -1;
-    if (r->options.particles.trails && !(r->source.trails = trail_history_create(r->options.particles.trails))) {
+    if (r->figure.options.particles.trails &&
+        !(r->figure.sequence.trails = cgt_trail_history_create(r->figure.options.particles.trails))) {
         program_error("out of memory for the trails");
         return -1;
     }
     r->source.looks_ahead = 1;
     reader->source = &r->source;
-    reader->coloring = r->coloring; /* its index goes along */
-    r->coloring.index = NULL;
+    reader->coloring = r->figure.coloring; /* its index goes along */
+    r->figure.coloring.index = NULL;
     reader->range = r->options.range;
     reader->next = r->begin;
     reader->end = end_of_frames(r);
     reader->stop = r->stop;
     reader->check = render_check_kind;
     reader->user = r;
-    reader->renderer = r;
+    reader->figure = &r->figure;
     return render_reader_start(reader);
 }
 
 int render_prepare(renderer *r)
 {
-    return create_context(r) || open_input(r) || render_choose_colors(r) || render_choose_camera(r) ||
-                   create_scene(r) || prepare_pictures(r)
-               ? -1
-               : 0;
+    cgt_figure *const figure = &r->figure;
+    if (create_context(r) || open_input(r) || render_result(r, cgt_figure_choose_colors(figure)) || open_mesh(r) ||
+        render_result(r, cgt_figure_choose_camera(figure)) || render_result(r, cgt_figure_settle(figure)))
+        return -1;
+    return prepare_pictures(r);
 }
 
 int render_setup(renderer *r)
@@ -399,14 +374,10 @@ void render_close(renderer *r)
     render_reader_finish(&r->reader);
     render_cell_release(r->cell);
     render_picture_close(r);
-    render_bounce_release(r->bounce);
-    cgt_scene_release(r->scene);
+    cgt_coloring_free(&r->reader.coloring);
+    frame_source_close(&r->source);
+    cgt_figure_close(&r->figure);
+    cgt_trajectory_close(r->mesh);
     cgt_context_release(r->context);
     contact_sheet_release(r->sheet);
-    coloring_free(&r->reader.coloring);
-    coloring_free(&r->coloring);
-    render_scene_close(r);
-    frame_source_close(&r->source);
-    expression_free(r->formula);
-    camera_keys_free(&r->options.keys);
 }

@@ -4,48 +4,26 @@
  * Elements by their names, and van der Waals radii of the main group: M. Mantina, A. C. Chamberlin, R. Valero, C. J.
  * Cramer, D. G. Truhlar, "Consistent van der Waals Radii for the Whole Main Group", J. Phys. Chem. A 113 (2009),
  * 5806-5812, table 12. */
-#define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_elements.h"
 #include "trajectory/trajectory_sites.h"
 
 #include <math.h>
 #include <string.h>
-#include <strings.h>
 
-typedef struct element {
-    char symbol[3];
-    float radius; /* Angstrom; 0: not in the paper */
-} element;
-
-/* In order of atomic numbers. */
-static const element elements[] = {
-    {"H", 1.10f},  {"He", 1.40f}, {"Li", 1.81f}, {"Be", 1.53f}, {"B", 1.92f},  {"C", 1.70f},  {"N", 1.55f},
-    {"O", 1.52f},  {"F", 1.47f},  {"Ne", 1.54f}, {"Na", 2.27f}, {"Mg", 1.73f}, {"Al", 1.84f}, {"Si", 2.10f},
-    {"P", 1.80f},  {"S", 1.80f},  {"Cl", 1.75f}, {"Ar", 1.88f}, {"K", 2.75f},  {"Ca", 2.31f}, {"Sc", 0},
-    {"Ti", 0},     {"V", 0},      {"Cr", 0},     {"Mn", 0},     {"Fe", 0},     {"Co", 0},     {"Ni", 0},
-    {"Cu", 0},     {"Zn", 0},     {"Ga", 1.87f}, {"Ge", 2.11f}, {"As", 1.85f}, {"Se", 1.90f}, {"Br", 1.83f},
-    {"Kr", 2.02f}, {"Rb", 3.03f}, {"Sr", 2.49f}, {"Y", 0},      {"Zr", 0},     {"Nb", 0},     {"Mo", 0},
-    {"Tc", 0},     {"Ru", 0},     {"Rh", 0},     {"Pd", 0},     {"Ag", 0},     {"Cd", 0},     {"In", 1.93f},
-    {"Sn", 2.17f}, {"Sb", 2.06f}, {"Te", 2.06f}, {"I", 1.98f},  {"Xe", 2.16f}, {"Cs", 3.43f}, {"Ba", 2.68f},
-    {"La", 0},     {"Ce", 0},     {"Pr", 0},     {"Nd", 0},     {"Pm", 0},     {"Sm", 0},     {"Eu", 0},
-    {"Gd", 0},     {"Tb", 0},     {"Dy", 0},     {"Ho", 0},     {"Er", 0},     {"Tm", 0},     {"Yb", 0},
-    {"Lu", 0},     {"Hf", 0},     {"Ta", 0},     {"W", 0},      {"Re", 0},     {"Os", 0},     {"Ir", 0},
-    {"Pt", 0},     {"Au", 0},     {"Hg", 0},     {"Tl", 1.96f}, {"Pb", 2.02f}, {"Bi", 2.07f}, {"Po", 1.97f},
-    {"At", 2.02f}, {"Rn", 2.20f}, {"Fr", 3.48f}, {"Ra", 2.83f}, {"Ac", 0},     {"Th", 0},     {"Pa", 0},
-    {"U", 0},      {"Np", 0},     {"Pu", 0},     {"Am", 0},     {"Cm", 0},     {"Bk", 0},     {"Cf", 0},
-    {"Es", 0},     {"Fm", 0},     {"Md", 0},     {"No", 0},     {"Lr", 0},     {"Rf", 0},     {"Db", 0},
-    {"Sg", 0},     {"Bh", 0},     {"Hs", 0},     {"Mt", 0},     {"Ds", 0},     {"Rg", 0},     {"Cn", 0},
-    {"Nh", 0},     {"Fl", 0},     {"Mc", 0},     {"Lv", 0},     {"Ts", 0},     {"Og", 0}};
-enum { ELEMENTS = sizeof elements / sizeof elements[0] };
-
-const char *element_symbol(uint32_t number)
-{
-    return number > 0 && number <= ELEMENTS ? elements[number - 1].symbol : "";
-}
+/* Angstrom, in order of atomic numbers; 0: not in the paper. */
+static const float radii[ELEMENTS] = {
+    1.10f, 1.40f, 1.81f, 1.53f, 1.92f, 1.70f, 1.55f, 1.52f, 1.47f, 1.54f, 2.27f, 1.73f, 1.84f, 2.10f, 1.80f,
+    1.80f, 1.75f, 1.88f, 2.75f, 2.31f, 0,     0,     0,     0,     0,     0,     0,     0,     0,     0,
+    1.87f, 2.11f, 1.85f, 1.90f, 1.83f, 2.02f, 3.03f, 2.49f, 0,     0,     0,     0,     0,     0,     0,
+    0,     0,     0,     1.93f, 2.17f, 2.06f, 2.06f, 1.98f, 2.16f, 3.43f, 2.68f, 0,     0,     0,     0,
+    0,     0,     0,     0,     0,     0,     0,     0,     0,     0,     0,     0,     0,     0,     0,
+    0,     0,     0,     0,     0,     1.96f, 2.02f, 2.07f, 1.97f, 2.02f, 2.20f, 3.48f, 2.83f, 0,     0,
+    0,     0,     0,     0,     0,     0,     0,     0,     0,     0,     0,     0,     0,     0,     0,
+    0,     0,     0,     0,     0,     0,     0,     0,     0,     0,     0,     0,     0};
 
 float element_radius(uint32_t number)
 {
-    const float radius = number > 0 && number <= ELEMENTS ? elements[number - 1].radius : 0.0f;
+    const float radius = number > 0 && number <= ELEMENTS ? radii[number - 1] : 0.0f;
     return radius > 0.0f ? radius : ELEMENT_DEFAULT_RADIUS;
 }
 
@@ -73,19 +51,6 @@ static int is_digit(char c) { return c >= '0' && c <= '9'; }
 static int is_upper(char c) { return c >= 'A' && c <= 'Z'; }
 static int is_letter(char c) { return is_upper(c) || (c >= 'a' && c <= 'z'); }
 
-/* The element whose symbol these letters are, in any case; 0: none. Deuterium and tritium are hydrogen. */
-static uint32_t find_symbol(const char *letters, size_t length)
-{
-    if (length == 1 && strchr("DdTt", *letters) != NULL)
-        return 1;
-    for (uint32_t i = 0; i < ELEMENTS; i++)
-        if (strlen(elements[i].symbol) == length && strncasecmp(elements[i].symbol, letters, length) == 0)
-            return i + 1;
-    return 0;
-}
-
-uint32_t element_named(const char *symbol) { return find_symbol(symbol, strlen(symbol)); }
-
 /* Whether two capitals may be the label of an atom in a molecule: an element of such molecules, then the atom's place,
  * counted in Greek letters (alpha, beta, gamma, delta, epsilon, zeta, eta) from the backbone, or another mark. */
 static int may_be_label(const char *letters)
@@ -112,14 +77,14 @@ uint32_t element_find(text_span name, element_reading *reading)
     *reading = ELEMENT_NONE;
     if (letters == 0)
         return 0;
-    const uint32_t symbol = after == name.end || letters <= 2 ? find_symbol(p, letters) : 0;
+    const uint32_t symbol = after == name.end || letters <= 2 ? element_spelt(p, letters) : 0;
     const int ambiguous = letters == 2 && may_be_label(p);
     if (symbol != 0 && !(ambiguous && has_digits)) {
         *reading = ambiguous ? ELEMENT_EITHER : ELEMENT_SYMBOL;
         return symbol;
     }
     /* Labels are written in capitals and have one to four characters. */
-    const uint32_t first = letters == capitals && name.end - name.begin <= 4 ? find_symbol(p, 1) : 0;
+    const uint32_t first = letters == capitals && name.end - name.begin <= 4 ? element_spelt(p, 1) : 0;
     *reading = first != 0 ? ELEMENT_LABEL : ELEMENT_NONE;
     return first;
 }

@@ -5,6 +5,7 @@
 #ifndef TRAJECTORY_ELEMENTS_H
 #define TRAJECTORY_ELEMENTS_H
 
+#include "data/element_symbols.h"
 #include "trajectory/text/text_reader.h"
 
 #define ELEMENT_DEFAULT_RADIUS 2.0f /* Angstrom: elements missing from the table, and names that are no elements */
@@ -19,12 +20,6 @@ typedef enum element_reading {
 
 /* The number of the element that a name stands for, from 1 for hydrogen; 0: none. The case does not matter. */
 uint32_t element_find(text_span name, element_reading *reading);
-
-/* The number of the element whose symbol this is, in any case; 0: it is none. */
-uint32_t element_named(const char *symbol);
-
-/* The symbol of an element, "" for 0 and beyond the last. */
-const char *element_symbol(uint32_t number);
 
 /* Van der Waals radius in Angstrom of an element by its number. */
 float element_radius(uint32_t number);

@@ -7,8 +7,8 @@
  * what it lists is added. Two of the places that an atom may have are never bonded. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_guess.h"
-#include "trajectory/near_pairs.h"
-#include "trajectory/periodic_box.h"
+#include "data/near_pairs.h"
+#include "sequence/periodic_box.h"
 #include "trajectory/trajectory_atoms.h"
 #include "trajectory/trajectory_topology.h"
 
@@ -128,7 +128,7 @@ static int place_atoms(guess *g, const periodic_box *box)
         const double p[3] = {(double)from[0], (double)from[1], (double)from[2]};
         double place[3] = {p[0], p[1], p[2]};
         for (int e = 0; e < 3; e++) {
-            const double whole = floor(periodic_box_share(box, e, p));
+            const double whole = floor(cgt_periodic_box_share(box, e, p));
             for (int c = 0; c < 3 && isfinite(whole); c++)
                 place[c] -= whole * box->edge[e][c];
         }
@@ -143,14 +143,14 @@ enum { MOST_IMAGES = 4 }; /* on each side: of cells so small that more are neede
 /* Adds images of all that is there, along one edge, as far as bonds reach. */
 static int add_images(guess *g, const periodic_box *box, int e, double longest)
 {
-    const double height = periodic_box_height(box, e);
+    const double height = cgt_periodic_box_height(box, e);
     const size_t before = g->count;
     if (!(height > 0.0))
         return 0;
     const double reach = longest / height; /* in shares of the edge */
     for (size_t i = 0; i < before; i++) {
         const double p[3] = {(double)g->xyzr[4 * i], (double)g->xyzr[4 * i + 1], (double)g->xyzr[4 * i + 2]};
-        const double share = periodic_box_share(box, e, p);
+        const double share = cgt_periodic_box_share(box, e, p);
         for (int step = -MOST_IMAGES; step <= MOST_IMAGES; step++) {
             double place[3];
             if (step == 0 || !(share + step >= -reach && share + step <= 1.0 + reach))
@@ -171,7 +171,7 @@ static int add_images(guess *g, const periodic_box *box, int e, double longest)
 static int find_bonds(cgt_trajectory *t, const cgt_trajectory_frame *f)
 {
     guess g = {.t = t, .frame = f, .bonds = &t->bonds};
-    const periodic_box box = periodic_box_of(f);
+    const periodic_box box = cgt_periodic_box_of(f);
     float largest = 0.0f;
     for (uint32_t i = 0; i < f->count; i++)
         largest = fmaxf(largest, covalent_radius(f->element[i]));
@@ -179,7 +179,7 @@ static int find_bonds(cgt_trajectory *t, const cgt_trajectory_frame *f)
     int failed = mark_residues(&g) || place_atoms(&g, &box);
     for (int e = 0; e < 3 && !failed; e++)
         failed = add_images(&g, &box, e, (double)longest);
-    failed = failed || near_pairs_find(g.xyzr, (uint32_t)g.count, longest, take_pair, &g);
+    failed = failed || cgt_near_pairs_find(g.xyzr, (uint32_t)g.count, longest, take_pair, &g);
     free(g.is_told);
     free(g.xyzr);
     free(g.atom);

@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 
 #include "common/program.h"
+#include "common/stop_flag.h"
 #include "trajectory/trajectory_status.h"
 
 typedef struct view_slot {
@@ -52,23 +53,23 @@ static void free_frame(view_frame *f)
     free(f);
 }
 
-static view_frame *copy_frame(const frame_source *source, uint64_t chosen)
+static view_frame *copy_frame(const frame_sequence *sequence, uint64_t chosen)
 {
-    const size_t speed_bytes = source->speed ? source->frame.count * sizeof(float) : 0;
+    const size_t speed_bytes = sequence->speed ? sequence->frame.count * sizeof(float) : 0;
     view_frame *const f = calloc(1, sizeof *f);
     if (!f)
         return NULL;
-    f->clone = frame_clone(&source->frame, &f->bytes);
-    f->speed = source->speed ? malloc(speed_bytes ? speed_bytes : 1) : NULL;
-    if (!f->clone || (source->speed && !f->speed)) {
+    f->clone = frame_clone(&sequence->frame, &f->bytes);
+    f->speed = sequence->speed ? malloc(speed_bytes ? speed_bytes : 1) : NULL;
+    if (!f->clone || (sequence->speed && !f->speed)) {
         free_frame(f);
         return NULL;
     }
     if (speed_bytes)
-        memcpy(f->speed, source->speed, speed_bytes);
+        memcpy(f->speed, sequence->speed, speed_bytes);
     f->frame = *f->clone;
     f->chosen = chosen;
-    f->speed_from = source->speed_from;
+    f->speed_from = sequence->speed_from;
     f->bytes += sizeof *f + speed_bytes;
     return f;
 }
@@ -78,7 +79,7 @@ static view_frame *copy_frame(const frame_source *source, uint64_t chosen)
 /* A frame that may be drawn: trails are those of the frame that was read last. */
 static view_frame *find(const view_frames *f, uint64_t chosen)
 {
-    const int is_there = chosen < f->room && (!f->source.trails || f->last == chosen);
+    const int is_there = chosen < f->room && (!f->source.sequence->trails || f->last == chosen);
     return is_there ? f->at[chosen].frame : NULL;
 }
 
@@ -154,7 +155,7 @@ static int choose_next(view_frames *f, uint64_t *next)
     bytes = f->at[k].frame->bytes;
     while (k < f->end && find(f, k))
         k++;
-    if (f->source.trails || k >= f->end || !make_room(f, bytes, k))
+    if (f->source.sequence->trails || k >= f->end || !make_room(f, bytes, k))
         return 0;
     *next = k;
     return 1;
@@ -163,7 +164,7 @@ static int choose_next(view_frames *f, uint64_t *next)
 static int want_all_columns(view_frames *f, char *error, size_t size)
 {
     const char *names[CGT_TRAJECTORY_MOST_COLUMNS];
-    const cgt_trajectory_frame *const frame = &f->source.frame;
+    const cgt_trajectory_frame *const frame = &f->source.sequence->frame;
     size_t count = 0;
     for (uint32_t i = 0; i < frame->columns && count < CGT_TRAJECTORY_MOST_COLUMNS; i++)
         names[count++] = frame->column[i].name;
@@ -181,7 +182,7 @@ static int read_frame(view_frames *f, uint64_t chosen, view_frame **frame, char 
     const int result = frame_source_read(&f->source, number, error, size);
     if (result != 1)
         return result;
-    *frame = copy_frame(&f->source, chosen);
+    *frame = copy_frame(f->source.sequence, chosen);
     if (!*frame)
         snprintf(error, size, "out of memory for frame %llu", (unsigned long long)number);
     return *frame ? 1 : -1;
@@ -281,7 +282,7 @@ view_frames *view_frames_start(frame_source *source, const view_frames_options *
     }
     f->options = *options;
     f->source = *source;
-    f->source.formula_count = 0; /* who draws binds them */
+    f->source.sequence->formula_count = 0; /* who draws binds them */
     memset(source, 0, sizeof *source);
     f->reading = *options->reading;
     f->reading.follow = 0.0;

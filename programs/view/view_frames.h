@@ -14,7 +14,7 @@
 typedef struct view_frame {
     cgt_trajectory_frame frame;  /* with the arrays of: */
     cgt_trajectory_frame *clone; /* to be freed */
-    float *speed;                /* as frame_source.speed */
+    float *speed;                /* as frame_sequence.speed */
     speed_source speed_from;
     uint64_t chosen; /* which of the chosen frames */
     size_t bytes;

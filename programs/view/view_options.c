@@ -80,7 +80,7 @@ static int finish(void *options, const char **operands, size_t count, char *erro
         snprintf(error, size, "--pictures: \"%s\" ends in none of .png, .jpg, .tif", o->pictures);
         return -1;
     }
-    if (o->render.picture.transparent && format != IMAGE_PNG) {
+    if (o->render.figure.picture.transparent && format != IMAGE_PNG) {
         snprintf(error, size, "--transparent: \"%s\" holds no opacity; .png does", o->pictures);
         return -1;
     }
@@ -92,8 +92,8 @@ static size_t join_rows(option_row rows[OPTIONS_MOST])
 {
     const option_row *heading = NULL;
     size_t count = 0;
-    for (size_t i = 0; i < render_option_table.count && count + 2 + OWN_ROWS < OPTIONS_MOST; i++) {
-        const option_row *const row = &render_option_table.rows[i];
+    for (size_t i = 0; i < render_option_table()->count && count + 2 + OWN_ROWS < OPTIONS_MOST; i++) {
+        const option_row *const row = &render_option_table()->rows[i];
         if (!row->name)
             heading = row;
         if (!row->name)
@@ -146,7 +146,7 @@ void view_options_parse(view_options *o, int argc, char **argv)
     char error[PROGRAM_ERROR_SIZE];
     memset(o, 0, sizeof *o);
     render_options_init(&o->render);
-    o->render.samples = 2;
+    o->render.figure.samples = 2;
     o->render.output.survey = VIEW_SURVEY_AUTO;
     o->budget = 1e3f / 60.0f;
     o->pictures = "view_%04d.png";
@@ -163,6 +163,6 @@ void view_options_parse_render(render_options *o, int argc, char **argv)
 {
     options_given given;
     render_options_init(o);
-    options_parse(&render_option_table, o, argc, argv, &given);
+    options_parse(render_option_table(), o, argc, argv, &given);
     o->settings = given.settings;
 }

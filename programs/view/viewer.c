@@ -101,7 +101,7 @@ viewer *viewer_create(const view_options *options, void (*wake)(void *user), voi
         view_draw_close(v->draw);
         v->draw = NULL;
     }
-    if (viewer_picture_resize(v, options->render.width, options->render.height, 1.0f)) {
+    if (viewer_picture_resize(v, options->render.figure.width, options->render.figure.height, 1.0f)) {
         viewer_free(v);
         return NULL;
     }
@@ -125,7 +125,7 @@ void viewer_free(viewer *v)
     view_frames_finish(v->frames);
     view_draw_close(v->draw);
     program_set_error_sink(NULL, NULL);
-    text_close(v->font);
+    cgt_text_close(v->font);
     free(v->events);
     free(v->rgb);
     free(v->over);

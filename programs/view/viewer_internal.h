@@ -8,7 +8,7 @@
 #include <pthread.h>
 
 #include "common/program.h"
-#include "picture/overlay/text.h"
+#include "text/text.h"
 #include "view/view_camera.h"
 #include "view/draw/view_draw.h"
 #include "view/viewer.h"

@@ -32,7 +32,7 @@ static void write_at(viewer *v, float x, float y, const char *text, const float 
 {
     const canvas c = canvas_of(v);
     if (v->font)
-        text_draw(v->font, &c, x, y, text, color);
+        cgt_text_draw(v->font, &c, x, y, text, color);
 }
 
 /* Lines on a dark ground, from a corner; right: the corner is at the right. Returns the width. */
@@ -41,7 +41,7 @@ static float panel(viewer *v, float x, float y, int right, const char lines[][12
     float width = 0.0f;
     const float pad = 8.0f * v->scale, line = line_height(v);
     for (uint32_t i = 0; i < count && v->font; i++)
-        width = fmaxf(width, text_width(v->font, lines[i]));
+        width = fmaxf(width, cgt_text_width(v->font, lines[i]));
     width += 2.0f * pad;
     const float left = right ? x - width : x;
     shade(v, left, y, width, (float)count * line + pad);
@@ -72,14 +72,14 @@ static void draw_bar(viewer *v, const view_frames_state *s)
     if (s->count < 2 || width < 8.0f)
         return;
     shade(v, 0.0f, bar_top(v), (float)v->width, 22.0f * v->scale);
-    canvas_fill(&c, pad, y - 1.5f * v->scale, width, 3.0f * v->scale, dim);
+    cgt_canvas_fill(&c, pad, y - 1.5f * v->scale, width, 3.0f * v->scale, dim);
     /* what is in memory */
     for (uint32_t x = 0; x < (uint32_t)width; x += 2)
         if (view_frames_has(v->frames, (uint64_t)((double)x / (double)width * (double)(s->count - 1) + 0.5)))
-            canvas_fill(&c, pad + (float)x, y - 1.5f * v->scale, 2.0f, 3.0f * v->scale, white);
+            cgt_canvas_fill(&c, pad + (float)x, y - 1.5f * v->scale, 2.0f, 3.0f * v->scale, white);
     const float at = pad + width * (float)((double)v->wanted / (double)(s->count - 1));
     const float place[2] = {fminf(at, pad + width), y};
-    canvas_line(&c, place, place, 11.0f * v->scale, accent);
+    cgt_canvas_line(&c, place, place, 11.0f * v->scale, accent);
 }
 
 static void draw_status(viewer *v, const view_frames_state *s)
@@ -206,10 +206,10 @@ static void draw_picks(viewer *v)
             const float a = (float)k * 0.2617994f, b = (float)(k + 1) * 0.2617994f;
             const float from[2] = {at[i][0] + radius * cosf(a), at[i][1] + radius * sinf(a)};
             const float to[2] = {at[i][0] + radius * cosf(b), at[i][1] + radius * sinf(b)};
-            canvas_line(&c, from, to, 2.0f * v->scale, accent);
+            cgt_canvas_line(&c, from, to, 2.0f * v->scale, accent);
         }
         if (i > 0 && seen[i - 1])
-            canvas_line(&c, at[i - 1], at[i], 2.0f * v->scale, accent);
+            cgt_canvas_line(&c, at[i - 1], at[i], 2.0f * v->scale, accent);
     }
 }
 

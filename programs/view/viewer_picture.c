@@ -45,8 +45,9 @@ int viewer_picture_resize(viewer *v, uint32_t width, uint32_t height, float scal
     v->width = width;
     v->height = height;
     v->scale = scale > 0.0f ? scale : 1.0f;
-    text_close(v->font); /* without FreeType, or a font, the title of the window tells the frame */
-    v->font = text_open(v->options.render.picture.font, floorf(13.0f * v->scale + 0.5f), error, sizeof error);
+    cgt_text_close(v->font); /* without FreeType, or a font, the title of the window tells the frame */
+    v->font =
+        cgt_text_open(v->options.render.figure.picture.font, floorf(13.0f * v->scale + 0.5f), error, sizeof error);
     memset(v->cost, 0, sizeof v->cost);
     v->outdated = v->changed = 1;
     return 0;

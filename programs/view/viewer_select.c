@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "trajectory/trajectory_elements.h"
+#include "data/element_symbols.h"
 #include "view/viewer_internal.h"
 
 /* ---- Selecting ---------------------------------------------------------------------------------------------- */

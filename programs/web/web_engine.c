@@ -14,11 +14,9 @@
 #include <cgt/picture.h>
 #include <cgt/trajectory.h>
 
-#include "picture/color/coloring.h"
-#include "picture/style.h"
-#include "playback/frame_source.h"
-#include "playback/origin.h"
-#include "trajectory/trajectory_elements.h"
+#include "playback/survey_run.h"
+#include "figure_state.h"
+#include "data/element_symbols.h"
 #include "view/view_camera.h"
 
 /* How much a picture takes: SHADED is that of a style which is not plain while the camera moves. */
@@ -26,15 +24,11 @@ typedef enum web_quality { WEB_PLAIN, WEB_SHADED, WEB_FULL, WEB_QUALITIES } web_
 
 static struct {
     cgt_context *context;
-    cgt_scene *scene;
     frame_source file;
     int is_open;
-    survey survey;
-    double origin[3];         /* subtracted from the file's coordinates */
-    cgt_trajectory_kind kind; /* of the scene's geometry; 0: there is none */
-    coloring coloring;
-    cgt_camera camera;
-    float axis[3]; /* points up */
+    cgt_figure figure; /* of the file */
+    frame_parts parts;
+    cgt_camera camera; /* of the hand */
     cgt_picture *picture[WEB_QUALITIES];
     picture_style style;
     uint32_t width, height;
@@ -80,14 +74,15 @@ EMSCRIPTEN_KEEPALIVE int web_start(uint32_t threads)
 
 static void close_file(void)
 {
-    cgt_scene_release(web.scene); /* it uses the frame's arrays */
+    cgt_figure_close(&web.figure); /* its scene uses the frame's arrays */
+    cgt_frame_parts_free(&web.parts);
     frame_source_close(&web.file);
-    coloring_free(&web.coloring);
-    memset(&web.file, 0, sizeof web.file);
-    web.scene = NULL;
+    memset(&web.figure, 0, sizeof web.figure);
+    memset(&web.parts, 0, sizeof web.parts);
     web.is_open = 0;
-    web.kind = 0;
 }
+
+static int fail_figure(void) { return fail(web.figure.message); }
 
 static int fail_file(void)
 {
@@ -96,7 +91,7 @@ static int fail_file(void)
 }
 
 /* Looks at all frames, as cgt-render does, for colours and camera; of a large file at the first few. */
-static int survey_file(const char *path, const camera_directions fit[2])
+static int survey_file(const char *path)
 {
     const off_t large = 64 << 20; /* bytes */
     static const stop_flag never = 0;
@@ -106,83 +101,51 @@ static int survey_file(const char *path, const camera_directions fit[2])
                               .quiet = 1,
                               .stop = &never,
                               .context = web.context,
-                              .fit = fit};
-    if (survey_run(&web.file, &plan, &web.survey, web.message, sizeof web.message))
+                              .fit = cgt_figure_begin_fit(&web.figure)};
+    if (survey_run(&web.file, &plan, &web.figure.survey, web.message, sizeof web.message))
         return -1;
-    return web.survey.frames ? 0 : fail("the file has no frame");
-}
-
-/* As cgt-render without -k. */
-static int choose_colors(void)
-{
-    const coloring_by by = coloring_choose(&web.survey);
-    double min = 0.0, max = 0.0;
-    coloring_choose_range(&web.survey, by, 2, 0, web.origin, &min, &max);
-    if (by != COLORING_SPEED) {
-        speed_release(web.file.tracker);
-        web.file.tracker = NULL;
-    }
-    if (by == COLORING_PLAIN ? coloring_init_plain(&web.coloring, style_mesh_color)
-                             : coloring_init(&web.coloring, by, NULL, (double)(float)min, (double)(float)max))
-        return fail("out of memory for the colours");
-    return 0;
+    web.figure.has_survey = 1;
+    return web.figure.survey.frames ? 0 : fail("the file has no frame");
 }
 
 static int set_scene(void)
 {
-    const cgt_trajectory_frame *const f = &web.file.frame;
-    const size_t stride = 4 * sizeof(float);
-    const cgt_spheres spheres = {.count = f->count,
-                                 .centers = cgt_floats(f->count ? f->xyzr : NULL, stride),
-                                 .radii = cgt_floats(f->count ? f->xyzr + 3 : NULL, stride)};
-    const cgt_triangles triangles = {.count = f->triangles,
-                                     .indices = cgt_uint32s(f->index, 0),
-                                     .vertex_count = f->count,
-                                     .vertices = cgt_floats(f->position, 0)};
-    uint32_t geometry = web.kind ? 0 : CGT_INVALID_ID;
-    cgt_result result = f->kind == CGT_TRAJECTORY_SPHERES ? cgt_scene_set_spheres(web.scene, &geometry, &spheres)
-                                                          : cgt_scene_set_triangles(web.scene, &geometry, &triangles);
-    if (!result)
-        result = cgt_scene_commit(web.scene);
-    if (result)
-        return fail_library(result);
-    web.kind = f->kind;
-    return coloring_apply(&web.coloring, f, web.file.speed) ? fail("out of memory for the colours") : 0;
+    cgt_figure *const figure = &web.figure;
+    const cgt_trajectory_frame *const f = &figure->sequence.frame;
+    if (cgt_coloring_apply(&figure->coloring, f, figure->sequence.speed))
+        return fail("out of memory for the colours");
+    if (cgt_figure_scene_prepare(figure, f, figure->coloring.index, &web.parts, web.message, sizeof web.message))
+        return -1;
+    figure->frame = f;
+    if (cgt_figure_scene_set(figure, &web.parts))
+        return fail_figure();
+    const cgt_result result = cgt_scene_commit(figure->scene);
+    return result ? fail_library(result) : 0;
 }
 
-/* Where cgt-render looks from: the front, the side and above, z up for spheres, y for meshes. */
-static void begin_fit(camera_directions *fit, int up)
+/* Light and style of cgt-render with this camera given. */
+static void set_looks(void)
 {
-    float view[3], axis[3] = {0.0f};
-    axis[up] = 1.0f;
-    view[up] = 0.45f;
-    view[(up + 1) % 3] = up == 2 ? 0.5f : 1.0f;
-    view[(up + 2) % 3] = up == 2 ? -1.0f : 0.5f;
-    cgt_camera_directions_set(fit, view, axis, 30.0f, (double)web.width / (double)web.height, 0.0, 0);
-}
-
-static int choose_camera(const camera_directions fit[2])
-{
-    survey *const s = &web.survey;
-    const int has_spheres = s->kind == CGT_TRAJECTORY_SPHERES;
-    memset(web.axis, 0, sizeof web.axis);
-    web.axis[has_spheres ? 2 : 1] = 1.0f;
-    for (int c = 0; c < 3 && !s->drawable; c++) {
-        s->bounds_min[c] = -1.0f;
-        s->bounds_max[c] = 1.0f;
-    }
-    if (!s->drawable)
-        cgt_camera_reach_add_box(&s->reach, &fit[!has_spheres], s->bounds_min, s->bounds_max);
-    cgt_camera_init(&web.camera);
-    if (cgt_camera_reach_show(&s->reach, &fit[!has_spheres], s->bounds_min, s->bounds_max, &web.camera))
-        return fail("the scene is too large for a camera");
-    return 0;
+    cgt_figure *const figure = &web.figure;
+    figure_options o;
+    cgt_figure_options_init(&o);
+    o.picture.style = web.style;
+    o.width = web.width;
+    o.height = web.height;
+    cgt_figure_options_finish(&o, web.message, sizeof web.message);
+    o.picture.ambient = o.picture.ambient < 0 ? cgt_style_get(web.style)->ambient : o.picture.ambient;
+    figure->options.picture = o.picture;
+    figure->options.width = o.width;
+    figure->options.height = o.height;
+    cgt_camera_path_fixed(&figure->path, &web.camera, 0.0);
+    figure->camera = web.camera;
+    cgt_figure_choose_light(figure);
 }
 
 /* Of the file, as far as it can be read. */
 EMSCRIPTEN_KEEPALIVE uint32_t web_frames(void)
 {
-    return (uint32_t)(web.survey.has_total ? web.survey.total : web.survey.frames);
+    return (uint32_t)(web.figure.survey.has_total ? web.figure.survey.total : web.figure.survey.frames);
 }
 
 /* Opens a file and makes its first frame the one that is drawn. The size of pictures is set. */
@@ -190,33 +153,41 @@ EMSCRIPTEN_KEEPALIVE int web_open(const char *path)
 {
     const cgt_trajectory_options options = {.threads = 1, .leave_out_sites = true};
     const size_t kept = 64 << 20; /* bytes of frames, which are not read again */
-    camera_directions fit[2];
+    cgt_figure *const figure = &web.figure;
     close_file();
-    begin_fit(&fit[0], 2);
-    begin_fit(&fit[1], 1);
-    web.message[0] = 0;
-    memset(web.origin, 0, sizeof web.origin);
-    if (frame_source_open(&web.file, &path, 1, &options, web.context, web.message, sizeof web.message))
+    web.message[0] = web.cut[0] = 0;
+    cgt_figure_options_init(&figure->options);
+    figure->options.width = web.width;
+    figure->options.height = web.height;
+    figure->source = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
+    figure->context = web.context;
+    if (cgt_figure_options_finish(&figure->options, web.message, sizeof web.message))
+        return fail_file();
+    if (cgt_figure_open(figure)) {
+        fail_figure();
+        return fail_file();
+    }
+    if (frame_source_open(&web.file, &figure->sequence, &path, 1, &options, web.message, sizeof web.message))
         return fail_file();
     web.file.keep.most = kept;
-    if (survey_file(path, fit))
+    cgt_trajectory_get_origin(web.file.file, figure->origin);
+    if (survey_file(path))
         return fail_file();
-    cgt_trajectory_get_origin(web.file.file, web.origin);
-    if (web.survey.kind == CGT_TRAJECTORY_SPHERES && origin_of_bulk(&web.survey.bulk, web.origin)) {
-        cgt_trajectory_set_origin(web.file.file, web.origin);
-        if (frame_source_rewind(&web.file, web.message, sizeof web.message) || survey_file(path, fit))
+    if (cgt_figure_choose_bulk_origin(figure)) {
+        cgt_trajectory_set_origin(web.file.file, figure->origin);
+        if (frame_source_rewind(&web.file, web.message, sizeof web.message) || survey_file(path))
             return fail_file();
     }
     web.file.looks_ahead = 1;
-    web.cut[0] = 0;
-    if (web.survey.is_cut && (frame_source_read(&web.file, web_frames(), web.cut, sizeof web.cut) >= 0 ||
-                              frame_source_rewind(&web.file, web.message, sizeof web.message)))
+    if (figure->survey.is_cut && (frame_source_read(&web.file, web_frames(), web.cut, sizeof web.cut) >= 0 ||
+                                  frame_source_rewind(&web.file, web.message, sizeof web.message)))
         return fail_file();
-    const cgt_result result = cgt_scene_create(web.context, NULL, &web.scene);
-    if (result)
-        fail_library(result);
-    if (result || choose_colors() || choose_camera(fit))
+    if (cgt_figure_move_cameras(figure) || cgt_figure_choose_colors(figure) || cgt_figure_choose_camera(figure) ||
+        cgt_figure_settle(figure)) {
+        fail_figure();
         return fail_file();
+    }
+    web.camera = figure->path.start;
     web.is_open = 1;
     return web_seek(0);
 }
@@ -226,7 +197,7 @@ int web_seek(uint32_t number)
 {
     if (!web.is_open)
         return fail("no file is open");
-    if (web.kind && number == web.file.frame.number)
+    if (web.figure.has_geometry && number == web.figure.sequence.frame.number)
         return 0;
     if (number < web.file.next && frame_source_rewind(&web.file, web.message, sizeof web.message))
         return fail_file();
@@ -239,7 +210,7 @@ int web_seek(uint32_t number)
 /* The camera that shows all of the frame; from where it looks stays. */
 EMSCRIPTEN_KEEPALIVE int web_fit(void)
 {
-    const cgt_trajectory_frame *const f = &web.file.frame;
+    const cgt_trajectory_frame *const f = &web.figure.sequence.frame;
     const int has_spheres = f->kind == CGT_TRAJECTORY_SPHERES;
     const size_t stride = (has_spheres ? 4 : 3) * sizeof(float);
     const cgt_spheres all = {.count = f->count,
@@ -250,9 +221,9 @@ EMSCRIPTEN_KEEPALIVE int web_fit(void)
     return 0;
 }
 
-EMSCRIPTEN_KEEPALIVE uint32_t web_frame(void) { return (uint32_t)web.file.frame.number; }
-EMSCRIPTEN_KEEPALIVE uint32_t web_primitives(void) { return frame_primitives(&web.file.frame); }
-/* The next doubtful thing about the file; NULL: there is none. */
+EMSCRIPTEN_KEEPALIVE uint32_t web_frame(void) { return (uint32_t)web.figure.sequence.frame.number; }
+EMSCRIPTEN_KEEPALIVE uint32_t web_primitives(void) { return frame_primitives(&web.figure.sequence.frame); }
+/* The next thing that is doubtful about the file, or was chosen for it; NULL: there is none. */
 EMSCRIPTEN_KEEPALIVE const char *web_warning(void)
 {
     if (web.is_open && web.cut[0]) {
@@ -260,7 +231,8 @@ EMSCRIPTEN_KEEPALIVE const char *web_warning(void)
         web.cut[0] = 0;
         return web.message;
     }
-    return web.is_open ? cgt_trajectory_take_warning(web.file.file) : NULL;
+    const char *const notice = web.is_open ? cgt_notices_take(&web.figure.notices) : NULL;
+    return notice || !web.is_open ? notice : cgt_trajectory_take_warning(web.file.file);
 }
 
 /* ---- Pictures ----------------------------------------------------------------------------------------------- */
@@ -287,22 +259,11 @@ EMSCRIPTEN_KEEPALIVE void web_style(int style) { web.style = (picture_style)styl
 /* Those of cgt-render with this camera given, where the quality is full. */
 static cgt_picture_options settings_of(web_quality quality)
 {
-    const style_values *const v = style_get(web.style);
-    cgt_picture_options s = {
-        .width = web.width, .height = web.height, .lighting = {.light_count = 1, .light_samples = 8}};
-    s.shading = quality == WEB_PLAIN ? CGT_SHADING_PLAIN : CGT_SHADING_FULL;
-    s.lighting.ambient = quality == WEB_FULL ? (uint32_t)v->ambient : 0;
-    s.lighting.ambient_radius = style_ambient_radius(&web.camera);
-    s.lighting.sky = v->sky;
-    s.lighting.head = v->head;
-    s.style.outline = v->outline;
-    s.lighting.lights[0].light.kind = CGT_LIGHT_DIRECTIONAL;
-    s.lighting.lights[0].shadows = quality == WEB_FULL && v->shadows;
-    cgt_camera_get_key_light(&web.camera, web.width, web.height, s.lighting.lights[0].light.position);
-    for (int c = 0; c < 3; c++) {
-        s.lighting.lights[0].color[c] = v->key;
-        s.style.outline_color[c] = 0.01f;
-        s.style.background[c] = cgt_srgb_to_linear((float)v->background[c] / 255.0f);
+    set_looks();
+    cgt_picture_options s = cgt_figure_get_settings(&web.figure);
+    if (quality != WEB_FULL) {
+        s.lighting.ambient = 0;
+        s.lighting.lights[0].shadows = 0;
     }
     return s;
 }
@@ -323,15 +284,6 @@ static cgt_picture *picture_of(web_quality quality)
     return NULL;
 }
 
-static cgt_look look_of_frame(void)
-{
-    const int triangles = web.file.frame.kind == CGT_TRAJECTORY_TRIANGLES;
-    return (cgt_look){.index = web.coloring.index,
-                      .palette = web.coloring.palette[0],
-                      .palette_steps = COLORING_STEPS,
-                      .vertex_normals = triangles ? web.file.frame.vertex_normal : NULL};
-}
-
 static int finish(cgt_picture *p, cgt_result result)
 {
     if (!result)
@@ -345,26 +297,30 @@ static int finish(cgt_picture *p, cgt_result result)
 EMSCRIPTEN_KEEPALIVE int web_draw(void)
 {
     const web_quality quality = web.style == STYLE_PLAIN ? WEB_PLAIN : WEB_SHADED;
-    if (!web.scene)
+    if (!web.figure.scene)
         return fail("no file is open");
     cgt_picture *const p = picture_of(quality);
     const cgt_image image = {.bytes = web.pixels, .channels = 4};
-    const cgt_look look = look_of_frame();
-    return p ? finish(p, cgt_picture_draw(p, web.scene, &web.camera, &look, 1, &image, NULL)) : -1;
+    cgt_look looks[FIGURE_LOOKS];
+    if (!p)
+        return -1;
+    const uint32_t count = cgt_figure_begin_picture(&web.figure, looks);
+    return finish(p, cgt_picture_draw(p, web.figure.scene, &web.camera, looks, count, &image, NULL));
 }
 
 /* Adds a step of soft light to the picture; begins: the first. Returns how many are left, or -1. */
 EMSCRIPTEN_KEEPALIVE int web_grow(int begins)
 {
     uint32_t left = 0;
-    if (!web.scene)
+    if (!web.figure.scene)
         return fail("no file is open");
     cgt_picture *const p = begins ? picture_of(WEB_FULL) : web.picture[WEB_FULL];
     const cgt_image image = {.bytes = web.pixels, .channels = 4};
-    const cgt_look look = look_of_frame();
+    cgt_look looks[FIGURE_LOOKS];
     if (!p)
         return -1;
-    cgt_result result = begins ? cgt_picture_begin(p, web.scene, &web.camera, &look, 1, NULL) : CGT_OK;
+    const uint32_t count = cgt_figure_begin_picture(&web.figure, looks);
+    cgt_result result = begins ? cgt_picture_begin(p, web.figure.scene, &web.camera, looks, count, NULL) : CGT_OK;
     if (!result)
         result = cgt_picture_step(p, 1, &left);
     if (!result)
@@ -378,7 +334,7 @@ EMSCRIPTEN_KEEPALIVE int web_grow(int begins)
 EMSCRIPTEN_KEEPALIVE void web_turn(float right, float down)
 {
     const float turn = 4.0f / (float)web.height;
-    view_camera_turn(&web.camera, web.camera.target, web.axis, right * turn, down * turn);
+    view_camera_turn(&web.camera, web.camera.target, web.figure.options.up, right * turn, down * turn);
 }
 
 EMSCRIPTEN_KEEPALIVE void web_pan(float right, float down) { view_camera_pan(&web.camera, right, -down, web.height); }
@@ -396,7 +352,7 @@ EMSCRIPTEN_KEEPALIVE void web_zoom(float x, float y, float factor)
 EMSCRIPTEN_KEEPALIVE const char *web_camera(void)
 {
     const cgt_camera *const c = &web.camera;
-    const double *const o = web.origin;
+    const double *const o = web.figure.origin;
     const int digits = o[0] != 0.0 || o[1] != 0.0 || o[2] != 0.0 ? 15 : 9;
     snprintf(web.message, sizeof web.message, "%.*g,%.*g,%.*g,%.*g,%.*g,%.*g,%.9g,%.9g,%.9g,%.9g", digits,
              o[0] + (double)c->eye[0], digits, o[1] + (double)c->eye[1], digits, o[2] + (double)c->eye[2], digits,
@@ -410,15 +366,15 @@ EMSCRIPTEN_KEEPALIVE const char *web_camera(void)
 /* A sentence of it in web_message, "" where there is nothing. Returns the primitive's number, or -1. */
 EMSCRIPTEN_KEEPALIVE int web_pick(uint32_t x, uint32_t y)
 {
-    const cgt_trajectory_frame *const f = &web.file.frame;
+    const cgt_trajectory_frame *const f = &web.figure.sequence.frame;
     cgt_single_ray ray = {0};
     cgt_hit hit;
     web.message[0] = 0;
-    if (!web.scene)
+    if (!web.figure.scene)
         return -1;
     cgt_result result = cgt_camera_get_ray(&web.camera, web.width, web.height, x, y, ray.org, ray.dir);
     if (!result)
-        result = cgt_trace_ray(web.scene, &ray, &hit, NULL);
+        result = cgt_trace_ray(web.figure.scene, &ray, &hit, NULL);
     if (result)
         return fail_library(result);
     if (hit.primitive == CGT_INVALID_ID)
@@ -435,8 +391,8 @@ EMSCRIPTEN_KEEPALIVE int web_pick(uint32_t x, uint32_t y)
         else if (f->type)
             n += snprintf(web.message + n, sizeof web.message - (size_t)n, ", type %u", f->type[k]);
         snprintf(web.message + n, sizeof web.message - (size_t)n, ", at %.7g, %.7g, %.7g, radius %.6g",
-                 web.origin[0] + (double)s[0], web.origin[1] + (double)s[1], web.origin[2] + (double)s[2],
-                 (double)s[3]);
+                 web.figure.origin[0] + (double)s[0], web.figure.origin[1] + (double)s[1],
+                 web.figure.origin[2] + (double)s[2], (double)s[3]);
     }
     return (int)k;
 }

@@ -13,8 +13,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "playback/frames/frame_copy.h"
-#include "playback/frame_source.h"
+#include "data/frame_copy.h"
+#include "playback/survey_run.h"
 
 enum { FRAMES = 70 };
 
@@ -47,14 +47,26 @@ static int remove_run(void **state)
     return unlink(path);
 }
 
+static frame_sequence sequences[2]; /* of the sources that are open at once */
+
 static void open_run(frame_source *source)
 {
+    static uint32_t opened;
+    frame_sequence *const sequence = &sequences[opened++ % 2];
     const char *const paths[] = {path};
     cgt_trajectory_options options;
     char error[300];
     cgt_trajectory_options_init(&options);
     options.format = "xyz";
-    assert_int_equal(frame_source_open(source, paths, 1, &options, context, error, sizeof error), 0);
+    assert_int_equal(frame_source_open(source, sequence, paths, 1, &options, error, sizeof error), 0);
+    sequence->tracker = cgt_speed_create(context);
+    assert_non_null(sequence->tracker);
+}
+
+static void close_run(frame_source *source)
+{
+    cgt_frame_sequence_close(source->sequence);
+    frame_source_close(source);
 }
 
 TEST(ranges_count_their_frames)
@@ -84,14 +96,14 @@ TEST(frames_are_found_by_number)
         open_run(&source);
         for (uint64_t number = steps[s] - 1; number < FRAMES; number += steps[s]) {
             assert_int_equal(frame_source_read(&source, number, error, sizeof error), 1);
-            assert_int_equal(source.frame.number, number);
-            assert_int_equal(source.frame.count, number % 3 + 1);
+            assert_int_equal(source.sequence->frame.number, number);
+            assert_int_equal(source.sequence->frame.count, number % 3 + 1);
             if (number > 0 && number % 3 > 0) /* fewer spheres than before: nothing is known */
-                assert_true(source.speed[0] == (float)number);
+                assert_true(source.sequence->speed[0] == (float)number);
         }
         assert_int_equal(frame_source_read(&source, source.next < FRAMES ? FRAMES : source.next, error, sizeof error),
                          0);
-        frame_source_close(&source);
+        close_run(&source);
     }
 }
 
@@ -104,16 +116,16 @@ TEST(first_frames_have_the_speeds_towards_the_second)
     source.looks_ahead = 1;
     for (uint64_t number = 0; number < 3; number++) {
         assert_int_equal(frame_source_read(&source, number, error, sizeof error), 1);
-        assert_int_equal(source.frame.number, number);
-        assert_int_equal(source.frame.count, number + 1);
-        assert_true(source.speed[0] == (float)(number ? number : 1));
+        assert_int_equal(source.sequence->frame.number, number);
+        assert_int_equal(source.sequence->frame.count, number + 1);
+        assert_true(source.sequence->speed[0] == (float)(number ? number : 1));
     }
-    frame_source_close(&source);
+    close_run(&source);
     open_run(&source);
     source.looks_ahead = 1;
     assert_int_equal(frame_source_read(&source, 1, error, sizeof error), 1);
-    assert_true(source.frame.number == 1 && source.speed[0] == 1.0f);
-    frame_source_close(&source);
+    assert_true(source.sequence->frame.number == 1 && source.sequence->speed[0] == 1.0f);
+    close_run(&source);
 }
 
 /* Trails are the same however a frame is reached. Where there are fewer spheres than before nothing is known of the
@@ -127,21 +139,21 @@ TEST(trails_do_not_depend_on_what_was_read)
         for (uint32_t length = 1; length <= 5; length += 2) {
             frame_source source;
             open_run(&source);
-            speed_release(source.tracker);
-            source.tracker = NULL;
-            source.trails = trail_history_create(length);
-            assert_non_null(source.trails);
+            cgt_speed_release(source.sequence->tracker);
+            source.sequence->tracker = NULL;
+            source.sequence->trails = cgt_trail_history_create(length);
+            assert_non_null(source.sequence->trails);
             for (uint64_t number = steps[s] - 1; number < FRAMES; number += steps[s]) {
                 const uint64_t back = number % 3 < length ? number % 3 : length;
                 assert_int_equal(frame_source_read(&source, number, error, sizeof error), 1);
-                assert_int_equal(trail_history_places(source.trails, 0, place), back + 1);
+                assert_int_equal(cgt_trail_history_places(source.sequence->trails, 0, place), back + 1);
                 for (uint64_t k = 0; k <= back; k++)
                     assert_true(place[k][0] == (float)((number - k) * (number - k + 1) / 2));
             }
             assert_int_equal(frame_source_rewind(&source, error, sizeof error), 0);
             assert_int_equal(frame_source_read(&source, 0, error, sizeof error), 1);
-            assert_int_equal(trail_history_places(source.trails, 0, place), 1);
-            frame_source_close(&source);
+            assert_int_equal(cgt_trail_history_places(source.sequence->trails, 0, place), 1);
+            close_run(&source);
         }
 }
 
@@ -164,8 +176,8 @@ static void expect_reach(frame_source *source, const survey *s)
     float min[3] = {INFINITY, INFINITY, INFINITY}, max[3] = {-INFINITY, -INFINITY, -INFINITY};
     cgt_camera_reach_clear(&reach);
     for (uint64_t number = 0; frame_source_read(source, number, error, sizeof error) == 1; number++)
-        for (uint32_t i = 0; i < source->frame.count; i++) {
-            const float *const p = source->frame.xyzr + 4 * (size_t)i;
+        for (uint32_t i = 0; i < source->sequence->frame.count; i++) {
+            const float *const p = source->sequence->frame.xyzr + 4 * (size_t)i;
             const double place[3] = {(double)p[0], (double)p[1], (double)p[2]};
             if (!isfinite(p[0]))
                 continue;
@@ -210,9 +222,11 @@ TEST(threads_do_not_change_surveys)
         cgt_trajectory_options_init(&options);
         options.format = "xyz";
         options.threads = (int)threads;
-        assert_int_equal(frame_source_open(&source, paths, 1, &options, some, error, sizeof error), 0);
-        assert_int_equal(
-            frame_source_bind(&source, expression_parse("y + z", error, sizeof error), error, sizeof error), 0);
+        assert_int_equal(frame_source_open(&source, &sequences[0], paths, 1, &options, error, sizeof error), 0);
+        sequences[0].tracker = cgt_speed_create(some);
+        assert_int_equal(cgt_frame_sequence_bind(source.sequence, cgt_expression_parse("y + z", error, sizeof error),
+                                                 error, sizeof error),
+                         0);
         assert_int_equal(survey_run(&source, &plan, threads == 1 ? &one : &many, error, sizeof error), 0);
         assert_true(one.drawable == 446298 - 447 && one.has_element && one.speeds == 0);
         assert_true(one.values == 446298 && one.id_max == 149999);
@@ -220,8 +234,8 @@ TEST(threads_do_not_change_surveys)
             assert_memory_equal(&many, &one, sizeof one);
         else
             expect_reach(&source, &one);
-        expression_free(source.formulas[0]);
-        frame_source_close(&source);
+        cgt_expression_free(source.sequence->formulas[0]);
+        close_run(&source);
         cgt_context_release(some);
     }
     assert_int_equal(unlink(name), 0);
@@ -240,7 +254,7 @@ TEST(surveys_look_at_the_first_frames)
         assert_int_equal(found.has_total, count);
         assert_int_equal(found.total, count ? FRAMES : 2);
         assert_int_equal(frame_source_read(&source, 0, error, sizeof error), 1); /* it went back */
-        frame_source_close(&source);
+        close_run(&source);
     }
 }
 
@@ -254,14 +268,14 @@ static void check_same_array(const void *a, const void *b, size_t bytes)
 /* A source's frame with all that it has, beside another's. */
 static void check_same_frame(const frame_source *a, const frame_source *b)
 {
-    const cgt_trajectory_frame *const f = &a->frame, *const g = &b->frame;
+    const cgt_trajectory_frame *const f = &a->sequence->frame, *const g = &b->sequence->frame;
     assert_int_equal(f->number, g->number);
     assert_int_equal(f->count, g->count);
     check_same_array(f->xyzr, g->xyzr, f->count * 4 * sizeof *f->xyzr);
     check_same_array(f->id, g->id, f->count * sizeof *f->id);
     check_same_array(f->type, g->type, f->count * sizeof *f->type);
     check_same_array(f->element, g->element, f->count * sizeof *f->element);
-    check_same_array(a->speed, b->speed, f->count * sizeof *a->speed);
+    check_same_array(a->sequence->speed, b->sequence->speed, f->count * sizeof *a->sequence->speed);
     assert_int_equal(f->columns, g->columns);
     for (uint32_t i = 0; i < f->columns; i++) {
         assert_string_equal(f->column[i].name, g->column[i].name);
@@ -285,9 +299,11 @@ TEST(frames_of_a_survey_are_kept)
         uint64_t number = 0;
         open_run(&kept);
         open_run(&fresh);
-        assert_int_equal(frame_source_bind(&kept, expression_parse("x + y", error, sizeof error), error, sizeof error),
+        assert_int_equal(cgt_frame_sequence_bind(kept.sequence, cgt_expression_parse("x + y", error, sizeof error),
+                                                 error, sizeof error),
                          0);
-        assert_int_equal(frame_source_bind(&fresh, expression_parse("x + y", error, sizeof error), error, sizeof error),
+        assert_int_equal(cgt_frame_sequence_bind(fresh.sequence, cgt_expression_parse("x + y", error, sizeof error),
+                                                 error, sizeof error),
                          0);
         kept.keep.most = most;
         assert_int_equal(survey_run(&kept, &plan, &found, error, sizeof error), 0);
@@ -298,17 +314,17 @@ TEST(frames_of_a_survey_are_kept)
             assert_int_equal(frame_source_read(&fresh, number, error, sizeof error), 1);
             check_same_frame(&kept, &fresh);
             double sum[3], expected[3];
-            expression_values(kept.formulas[0], 0, kept.frame.count, sum);
-            expression_values(fresh.formulas[0], 0, fresh.frame.count, expected);
-            assert_memory_equal(sum, expected, kept.frame.count * sizeof *sum);
+            cgt_expression_values(kept.sequence->formulas[0], 0, kept.sequence->frame.count, sum);
+            cgt_expression_values(fresh.sequence->formulas[0], 0, fresh.sequence->frame.count, expected);
+            assert_memory_equal(sum, expected, kept.sequence->frame.count * sizeof *sum);
         }
         /* all of it was kept: the file was not read again */
         assert_int_equal(kept.keep.file_next == 0, most > 100000 && plan.most == UINT64_MAX);
         assert_int_equal(frame_source_read(&kept, number, error, sizeof error), 0);
-        expression_free(kept.formulas[0]);
-        expression_free(fresh.formulas[0]);
-        frame_source_close(&kept);
-        frame_source_close(&fresh);
+        cgt_expression_free(kept.sequence->formulas[0]);
+        cgt_expression_free(fresh.sequence->formulas[0]);
+        close_run(&kept);
+        close_run(&fresh);
     }
 }
 
@@ -320,14 +336,14 @@ TEST(copies_outlive_the_frame)
     open_run(&source);
     for (uint64_t number = 0; number < 10; number++) {
         assert_int_equal(frame_source_read(&source, number, error, sizeof error), 1);
-        assert_int_equal(frame_copy_set(&copy, &source.frame), 0);
+        assert_int_equal(cgt_frame_copy_set(&copy, &source.sequence->frame), 0);
         assert_int_equal(frame_source_read(&source, number + 1, error, sizeof error), 1); /* writes over its arrays */
         assert_int_equal(copy.frame.number, number);
         assert_true(copy.frame.xyzr[0] == (float)(number * (number + 1) / 2));
         frame_source_rewind(&source, error, sizeof error);
     }
-    frame_copy_free(&copy);
-    frame_source_close(&source);
+    cgt_frame_copy_free(&copy);
+    close_run(&source);
 }
 
 SEEDED_SUITE("test_frame_source", write_run, remove_run)

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "playback/periodic/unwrap.h"
+#include "sequence/unwrap.h"
 
 enum { MOLECULES = 60, MOST = 1500, RUNS = 200 };
 
@@ -157,11 +157,11 @@ static cgt_trajectory_frame unwrapped(unwrap_mode mode, int columns)
     char error[300];
     cgt_trajectory_frame f = m.frame;
     int endless = 0;
-    unwrap_release(last);
-    last = unwrap_create(mode);
+    cgt_unwrap_release(last);
+    last = cgt_unwrap_create(mode);
     assert_non_null(last);
     f.columns = (uint32_t)columns;
-    assert_int_equal(unwrap_frame(last, &f, &endless, error, sizeof error), 0);
+    assert_int_equal(cgt_unwrap_frame(last, &f, &endless, error, sizeof error), 0);
     assert_false(endless);
     return f;
 }
@@ -237,14 +237,14 @@ TEST(spheres_are_followed_from_frame_to_frame)
     static float xyzr[4 * SPHERES];
     static uint32_t id[SPHERES];
     test_random r = random_make(5);
-    unwrapping *const u = unwrap_create(UNWRAP_IMAGES);
+    unwrapping *const u = cgt_unwrap_create(UNWRAP_IMAGES);
     char error[300] = "";
     int endless = 0;
     for (int turn = 0; turn < 2; turn++) {
         for (int i = 0; i < SPHERES; i++)
             for (int e = 0; e < 3; e++)
                 share[i][e] = uniform(&r, 0.0, 1.0);
-        unwrap_restart(u);
+        cgt_unwrap_restart(u);
         for (int frame = 0; frame < FRAMES; frame++) {
             cgt_trajectory_frame f = {.kind = CGT_TRAJECTORY_SPHERES, .count = SPHERES, .xyzr = xyzr, .id = id};
             const double scale = uniform(&r, 0.9, 1.1);
@@ -267,8 +267,8 @@ TEST(spheres_are_followed_from_frame_to_frame)
                     xyzr[4 * at + c] = (float)place;
                 }
             }
-            assert_int_equal(unwrap_frame(u, &f, &endless, error, sizeof error), 0);
-            assert_true(unwrap_follows(u) && unwrap_needs_all(u) && !endless);
+            assert_int_equal(cgt_unwrap_frame(u, &f, &endless, error, sizeof error), 0);
+            assert_true(cgt_unwrap_follows(u) && cgt_unwrap_needs_all(u) && !endless);
             for (uint32_t i = 0; i < SPHERES; i++)
                 for (uint32_t c = 0; c < 3; c++) {
                     double place = 0.0;
@@ -280,7 +280,7 @@ TEST(spheres_are_followed_from_frame_to_frame)
                 }
         }
     }
-    unwrap_release(u);
+    cgt_unwrap_release(u);
 }
 
 TEST(what_cannot_be_put_together_is_told)
@@ -289,24 +289,24 @@ TEST(what_cannot_be_put_together_is_told)
     int endless = 0;
     test_random r = random_make(4);
     make(&r);
-    unwrapping *u = unwrap_create(UNWRAP_IMAGES), *whole = unwrap_create(UNWRAP_WHOLE);
+    unwrapping *u = cgt_unwrap_create(UNWRAP_IMAGES), *whole = cgt_unwrap_create(UNWRAP_WHOLE);
     cgt_trajectory_frame f = m.frame;
     f.bond_source = CGT_TRAJECTORY_BONDS_UNKNOWN;
-    assert_int_equal(unwrap_frame(whole, &f, &endless, error, sizeof error), -1);
+    assert_int_equal(cgt_unwrap_frame(whole, &f, &endless, error, sizeof error), -1);
     assert_non_null(strstr(error, "--whole: frame 0 has no bonds"));
     f.box_max[0] = -1.0f;
-    assert_int_equal(unwrap_frame(u, &f, &endless, error, sizeof error), -1);
+    assert_int_equal(cgt_unwrap_frame(u, &f, &endless, error, sizeof error), -1);
     assert_non_null(strstr(error, "has no box"));
     f = m.frame;
     f.kind = CGT_TRAJECTORY_TRIANGLES;
-    assert_int_equal(unwrap_frame(u, &f, &endless, error, sizeof error), -1);
+    assert_int_equal(cgt_unwrap_frame(u, &f, &endless, error, sizeof error), -1);
     assert_non_null(strstr(error, "is a mesh"));
 
     /* walls, and positions that go on: nothing moves, and nothing is asked for */
     f = m.frame;
     f.periodic[0] = f.periodic[1] = 0;
     f.unwrapped[2] = 1;
-    assert_int_equal(unwrap_frame(u, &f, &endless, error, sizeof error), 0);
+    assert_int_equal(cgt_unwrap_frame(u, &f, &endless, error, sizeof error), 0);
     assert_ptr_equal(f.xyzr, m.xyzr);
 
     /* a chain of three through the whole box; a sphere nowhere */
@@ -318,7 +318,7 @@ TEST(what_cannot_be_put_together_is_told)
     f.count = 4;
     f.bond = bonds;
     f.bonds = 4;
-    assert_int_equal(unwrap_frame(whole, &f, &endless, error, sizeof error), 0);
+    assert_int_equal(cgt_unwrap_frame(whole, &f, &endless, error, sizeof error), 0);
     assert_int_equal(endless, 1);
     assert_true(isnan(f.xyzr[12]));
     assert_memory_equal(f.xyzr, chain, 12 * sizeof *chain); /* it stays as it is */
@@ -326,14 +326,14 @@ TEST(what_cannot_be_put_together_is_told)
     /* flags that end */
     f = m.frame;
     f.columns = 3;
-    assert_int_equal(unwrap_frame(u, &f, &endless, error, sizeof error), 0);
+    assert_int_equal(cgt_unwrap_frame(u, &f, &endless, error, sizeof error), 0);
     f = m.frame;
     f.number = 1;
-    assert_int_equal(unwrap_frame(u, &f, &endless, error, sizeof error), -1);
+    assert_int_equal(cgt_unwrap_frame(u, &f, &endless, error, sizeof error), -1);
     assert_non_null(strstr(error, "--unwrap: frame 1 has no image flags (ix, iy, iz), unlike the first"));
-    unwrap_release(u);
-    unwrap_release(whole);
-    unwrap_release(NULL);
+    cgt_unwrap_release(u);
+    cgt_unwrap_release(whole);
+    cgt_unwrap_release(NULL);
 }
 
 SUITE(NULL, NULL)

@@ -40,7 +40,7 @@ while read -r text; do
 done <"$work/texts" >"$work/missing"
 
 # a name is the end of some path
-find src simd include backends bench programs examples tests -name '*.[ch]' -exec grep '\.\(c\|h\|md\|sh\)\>' {} + |
+find src simd include backends bench figure programs examples tests -name '*.[ch]' -exec grep '\.\(c\|h\|md\|sh\)\>' {} + |
     awk -v foreign="$foreign" 'BEGIN { split(foreign, list); for (i in list) known[list[i]] }
     FNR == NR { path = $0; do known[path]; while (sub(/^[^\/]*\//, "", path)); next }
     {

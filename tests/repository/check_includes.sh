@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: MIT
 #
 # check_includes.sh SOURCE_DIR
-# Allowed includes between folders: include <- simd <- src <- backends. picture/ and mpi/ see the public API. Programs
-# see the public API, how picture/ fits cameras, and each other's common parts; one file of cgt-render sees the simulated
-# Cell's pictures, cgt-bench the libraries' inside, and the hard cases and the oracle of the tests, and Embree; tests see
+# Allowed includes between folders: include <- simd <- src <- backends. picture/ and mpi/ see the public API, figure/
+# also how picture/ fits cameras. Programs see the public API, figure/ and each other's common parts; one file of
+# cgt-render sees the simulated Cell's pictures, cgt-bench the libraries' inside, and the hard cases and the oracle of the tests, and Embree; tests see
 # all. The library includes only C and POSIX headers from outside. Within src and in backends/cell, a table lists the
 # folders that a folder may include; no two include each other.
 set -eu
@@ -68,11 +68,12 @@ check simd "simd" "cgt/[a-z_]+\\.h|($standard|$intrinsics)\\.h|spu_(intrinsics|m
 check src "src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check backends "backends src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check picture "picture" "cgt/[a-z_]+\\.h|($standard|pthread)\\.h"
+check figure "figure picture" "cgt/[a-z_]+\\.h|($standard|pthread)\\.h|freetype/freetype\\.h"
 check mpi "mpi" "cgt/(mpi|picture)\\.h|($standard|sched|mpi)\\.h"
 check examples "examples programs" "cgt/[a-z_]+\\.h|($standard|getopt|lammps/library|mpi)\\.h"
-check programs "programs backends picture" \
+check programs "programs backends picture figure" \
     "cgt/(bounces|cgt|color|picture|research|trajectory|version)\\.h|[a-z]+|($standard|$posix|dlfcn|emscripten|spawn|direct|io|windows)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h|SDL2/SDL\\.h"
-check bench "bench backends picture src simd programs tests" \
+check bench "bench backends picture figure src simd programs tests" \
     "cgt/[a-z_]+\\.h|($standard|$posix)\\.h|embree3/rtcore\\.h"
 
 # The layers of src, the calls first: each folder, and the other folders that it may include.
@@ -183,14 +184,14 @@ grep -rnE '#[ \t]*include "cell/' programs --include='*.[ch]' |
     grep -vE '^programs/render/render_cell\.c:[0-9]+:#include "cell/(ppe/grid/grid_picture|programs/grid/spe_grid)\.h"' |
     sed 's/$/  <- the Cell, outside render_cell.c/' >>"$bad" || true
 
-# Of libcgt-picture's inside, programs see how cameras are fitted, and in one file tiles.
-grep -rnE '#[ \t]*include "(color|draw|whitted)/|#[ \t]*include "picture_' programs --include='*.[ch]' |
+# Of libcgt-picture's inside, programs see in one file tiles; figure/ sees how cameras are fitted.
+grep -rnE '#[ \t]*include "(color/srgb|draw/|whitted/)|#[ \t]*include "picture_' programs figure --include='*.[ch]' |
     grep -vE '^programs/render/render_cell\.c:[0-9]+:#include "picture_tiles\.h"' |
     sed 's/$/  <- the inside of libcgt-picture/' >>"$bad" || true
 
 # What one system alone has stands in one folder of the programs and in a few files of the library.
 grep -rnE '\b(_WIN32|__linux__|pipe2|fopencookie|sched_getaffinity|F_SETPIPE_SZ)\b|/proc/|<windows\.h>' \
-    include simd src backends picture programs bench examples --include='*.[ch]' |
+    include simd src backends picture figure programs bench examples --include='*.[ch]' |
     grep -vE '^(programs/system/|backends/(host_threads\.c|cell/machine/spufs)|src/core/memory\.[ch]|simd/(spu_host|float_mode)\.h)' |
     grep -vE '^bench/common/bench_(clones\.h|table\.c)' |
     sed 's/$/  <- one system alone, outside programs\/system/' >>"$bad" || true
@@ -203,6 +204,6 @@ if [ -s "$bad" ]; then
     cat "$bad"
     exit 1
 fi
-files=$(find include simd src backends programs examples bench -name '*.[ch]' | wc -l)
+files=$(find include simd src backends figure programs examples bench -name '*.[ch]' | wc -l)
 [ "$files" -gt 10 ] || { echo "only $files files found in $1"; exit 1; }
 echo "$files files include what they may"

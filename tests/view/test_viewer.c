@@ -66,13 +66,13 @@ static viewer *open_viewer(uint32_t memory)
     o.render.input = path;
     o.render.input_count = 1;
     o.render.no_images = 1;
-    o.render.width = WIDTH;
-    o.render.height = HEIGHT;
-    o.render.samples = 2;
+    o.render.figure.width = WIDTH;
+    o.render.figure.height = HEIGHT;
+    o.render.figure.samples = 2;
     o.render.output.survey = VIEW_SURVEY_AUTO;
     o.render.threads = 2;
     o.render.memory_mib = memory;
-    picture_options *const p = &o.render.picture; /* soft style, as the command line has it without options */
+    picture_options *const p = &o.render.figure.picture; /* soft style, as the command line has it without options */
     p->ambient = 16;
     p->shadows = 1;
     p->light_samples = 8;
@@ -403,11 +403,12 @@ TEST(little_memory_loses_no_frame)
     settle(v);
     const size_t frame = v->shown->bytes;
     view_frames_finish(v->frames);
+    frame_sequence sequence = {0};
     frame_source source;
     char error[256];
     cgt_trajectory_options reading;
     cgt_trajectory_options_init(&reading);
-    assert_int_equal(frame_source_open(&source, inputs, 1, &reading, NULL, error, sizeof error), 0);
+    assert_int_equal(frame_source_open(&source, &sequence, inputs, 1, &reading, error, sizeof error), 0);
     const view_frames_options o = {.paths = inputs,
                                    .path_count = 1,
                                    .reading = &reading,

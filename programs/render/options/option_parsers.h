@@ -1,50 +1,23 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Values of cgt-render's options that are more than a number. Each is an option_parser: it returns 0, or -1 with a
+ * Values of cgt-render's own options that are more than a number. Each is an option_parser: it returns 0, or -1 with a
  * sentence in error. `to` is what option_table.c says. */
 #ifndef OPTION_PARSERS_H
 #define OPTION_PARSERS_H
 
 #include "common/options.h"
+#include "options/figure_values.h"
 #include "render/options/render_options.h"
 
-extern const option_table render_option_table;
+/* The table of cgt-render; first called by one thread. */
+const option_table *render_option_table(void);
 
 /* render_options.c: an option_table's finish. */
 int render_options_finish(void *options, const char **operands, size_t count, char *error, size_t size);
 
-/* ---- option_values.c: values that several options have ------------------------------------------------------- */
-
-option_parser option_parse_direction; /* float[3]: three numbers, not all zero */
-option_parser option_parse_axis;      /* float[3]: x, y or z: the unit vector */
-option_parser option_parse_color;     /* uint8_t[3]: RRGGBB in hexadecimal, or a name such as red */
-int option_is_color(const char *text);
-
-/* From `least` to `most` finite numbers with commas between them; most is at most 16. *count gets how many. */
-int option_parse_numbers(const char *text, size_t least, size_t most, float *values, size_t *count, char *error,
-                         size_t error_size);
-
-/* Copies what is before the first `mark` of a text to `first`, of `room` bytes, and returns what is after it; NULL
- * where there is no mark, or too much before it. */
-const char *option_split(const char *text, char mark, char *first, size_t room);
-
-/* ---- picture_parsers.c --------------------------------------------------------------------------------------- */
-
-option_parser parse_output, parse_size, parse_grid, parse_keys, parse_view, parse_coloring,
-    parse_range; /* render_options */
-option_parser parse_samples, parse_sheet, parse_camera,
-    parse_colormap;                  /* uint32_t, const char *, camera_key, colormap * */
-option_parser parse_part;            /* output_options */
-option_parser parse_sun, parse_lamp; /* picture_options */
-
-/* ---- particle_parsers.c -------------------------------------------------------------------------------------- */
-
-option_parser add_condition, parse_hide, parse_slice, parse_cut; /* particle_options, and the next ones */
-option_parser parse_type_radius, parse_type_color, parse_type_name;
-option_parser parse_formula, parse_images; /* const char *, uint32_t[3] */
-option_parser parse_material;              /* bounce_options */
-option_parser parse_floor;                 /* floor_options */
-option_parser parse_floor_place;           /* double[4] */
+/* output_parsers.c */
+option_parser parse_output, parse_grid; /* render_options */
+option_parser parse_sheet, parse_part;  /* const char *, output_options */
 
 #endif

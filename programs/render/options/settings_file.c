@@ -49,8 +49,8 @@ static int append(settings_arguments *to, const char *text)
 static int is_option(const char *name)
 {
     int known = 0;
-    for (size_t i = 0; i < render_option_table.count && *name; i++) {
-        const char *const option = render_option_table.rows[i].name;
+    for (size_t i = 0; i < render_option_table()->count && *name; i++) {
+        const char *const option = render_option_table()->rows[i].name;
         known |= option && strncmp(option, name, strlen(name)) == 0;
     }
     return known && strcmp(name, "settings") != 0;

@@ -13,7 +13,7 @@
 /* Waits for a copy that is free: NULL where the reader is being closed. */
 static read_frame *wait_for_room(render_reader *r)
 {
-    const cgt_trajectory_frame *const f = &r->source->frame;
+    const cgt_trajectory_frame *const f = &r->source->sequence->frame;
     const uint64_t copies = (uint64_t)f->count * 4 * sizeof(float) > READ_LARGE ? 1 : READ_AHEAD;
     pthread_mutex_lock(&r->lock);
     while (!r->closing && r->read - r->given_back >= copies)
@@ -49,10 +49,10 @@ static int read_one(render_reader *r, uint64_t chosen)
     const int result = frame_source_read(r->source, number, r->error, sizeof r->error);
     if (result != 1)
         return result;
-    if (r->read == 0 && r->check && r->check(r->user, &r->source->frame))
+    if (r->read == 0 && r->check && r->check(r->user, &r->source->sequence->frame))
         return -1;
     const double read = program_seconds();
-    int failed = coloring_apply(&r->coloring, &r->source->frame, r->source->speed);
+    int failed = cgt_coloring_apply(&r->coloring, &r->source->sequence->frame, r->source->sequence->speed);
     const double colored = program_seconds();
     read_frame *const frame = failed ? NULL : wait_for_room(r);
     if (!failed && !frame)
@@ -60,19 +60,19 @@ static int read_one(render_reader *r, uint64_t chosen)
     if (frame) {
         const double copy = program_seconds();
         swap_index(r, frame);
-        failed = frame_copy_set(&frame->copy, &r->source->frame);
+        failed = cgt_frame_copy_set(&frame->copy, &r->source->sequence->frame);
         frame->chosen = chosen;
-        frame->speed_from = r->source->speed_from;
+        frame->speed_from = r->source->sequence->speed_from;
         frame->read_ms = (read - begin + program_seconds() - copy) * 1e3;
         frame->color_ms = (colored - read) * 1e3;
-        if (!failed && render_scene_prepare(r->renderer, &r->source->frame, frame->index, &frame->parts, r->error,
-                                            sizeof r->error))
+        if (!failed && cgt_figure_scene_prepare(r->figure, &r->source->sequence->frame, frame->index, &frame->parts,
+                                                r->error, sizeof r->error))
             return -1;
     }
     if (!failed)
         return 1;
     snprintf(r->error, sizeof r->error, "out of memory for the %" PRIu32 " primitives of frame %" PRIu64,
-             frame_primitives(&r->source->frame), number);
+             frame_primitives(&r->source->sequence->frame), number);
     return -1;
 }
 
@@ -99,7 +99,7 @@ static void *read_frames(void *user)
 int render_reader_start(render_reader *r)
 {
     int wrong = 0;
-    for (int i = 0; i < READ_AHEAD; i++) { /* coloring_apply grows an index that is there */
+    for (int i = 0; i < READ_AHEAD; i++) { /* cgt_coloring_apply grows an index that is there */
         r->frames[i].index = calloc(1, sizeof *r->frames[i].index);
         r->frames[i].index_capacity = 1;
         wrong |= !r->frames[i].index;
@@ -147,8 +147,8 @@ void render_reader_finish(render_reader *r)
         r->has_thread = 0;
     }
     for (int i = 0; i < READ_AHEAD; i++) {
-        frame_copy_free(&r->frames[i].copy);
-        frame_parts_free(&r->frames[i].parts);
+        cgt_frame_copy_free(&r->frames[i].copy);
+        cgt_frame_parts_free(&r->frames[i].parts);
         free(r->frames[i].index);
         r->frames[i].index = NULL;
     }

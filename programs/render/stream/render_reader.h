@@ -11,10 +11,10 @@
 
 #include "common/program.h"
 #include "common/stop_flag.h"
-#include "picture/color/coloring.h"
-#include "playback/frames/frame_copy.h"
+#include "color/coloring.h"
+#include "data/frame_copy.h"
 #include "playback/frame_source.h"
-#include "render/render_scene.h"
+#include "scene/figure_scene.h"
 
 /* A frame that was read. */
 typedef struct read_frame {
@@ -39,7 +39,7 @@ typedef struct render_reader {
     frame_range range;
     uint64_t next, end; /* of the chosen frames: the thread's own; UINT64_MAX: where the input ends */
     const stop_flag *stop;
-    const struct renderer *renderer; /* whose options say what is drawn */
+    const cgt_figure *figure; /* whose options say what is drawn */
     int (*check)(void *user,
                  const cgt_trajectory_frame *frame); /* of the first frame; not 0: refused, message printed */
     void *user;

@@ -20,8 +20,8 @@ int render_stream_begin(render_writer *w)
         if (render_output_kind(o->outputs[i].pattern) != OUTPUT_MOVIE)
             continue;
         const movie_options options = {.path = o->outputs[i].pattern,
-                                       .width = o->width,
-                                       .height = o->height,
+                                       .width = o->figure.width,
+                                       .height = o->figure.height,
                                        .rate = o->output.rate > 0.0 ? o->output.rate : 30.0,
                                        .quality = o->output.quality,
                                        .stop = w->stop,
@@ -84,7 +84,7 @@ static int take(render_writer *w, uint64_t chosen, const uint8_t *rgb)
             return -1;
         }
         if (render_output_kind(o->outputs[i].pattern) == OUTPUT_RAW &&
-            write_raw(rgb, (size_t)o->width * o->height * 3, w->stop))
+            write_raw(rgb, (size_t)o->figure.width * o->figure.height * 3, w->stop))
             return -1;
     }
     if (w->sheet)

@@ -51,8 +51,8 @@ static int write_files(render_writer *w, image_writer *files, const writer_pictu
 {
     const render_options *o = w->options;
     char name[4096], error[PROGRAM_ERROR_SIZE];
-    const image_content image = {.width = o->width,
-                                 .height = o->height,
+    const image_content image = {.width = o->figure.width,
+                                 .height = o->figure.height,
                                  .rgb = p->rgb,
                                  .alpha = p->alpha,
                                  .pixels = p->pixels,
@@ -144,19 +144,19 @@ static void *write_in_order(void *user)
 static int make_buffers(render_writer *w)
 {
     const render_options *o = w->options;
-    const size_t pixels = (size_t)o->width * o->height; /* at most RENDER_MAX_PIXELS */
+    const size_t pixels = (size_t)o->figure.width * o->figure.height; /* at most FIGURE_MAX_PIXELS */
     int exr = 0, wrong = 0;
     for (uint32_t i = 0; i < o->output_count; i++)
         exr |= image_format_of(o->outputs[i].pattern) == IMAGE_EXR;
     for (uint32_t i = 0; i < w->places && !wrong; i++) {
         w->ring[i].rgb = malloc(pixels * 3);
         w->ring[i].pixels = exr ? malloc(pixels * sizeof *w->ring[i].pixels) : NULL;
-        w->ring[i].alpha = o->picture.transparent ? malloc(pixels) : NULL;
-        wrong = !w->ring[i].rgb || (o->picture.transparent && !w->ring[i].alpha) || (exr && !w->ring[i].pixels);
+        w->ring[i].alpha = o->figure.picture.transparent ? malloc(pixels) : NULL;
+        wrong = !w->ring[i].rgb || (o->figure.picture.transparent && !w->ring[i].alpha) || (exr && !w->ring[i].pixels);
     }
     if (wrong)
-        program_error("out of memory for %u pictures of %ux%u pixels", (unsigned)w->places, (unsigned)o->width,
-                      (unsigned)o->height);
+        program_error("out of memory for %u pictures of %ux%u pixels", (unsigned)w->places, (unsigned)o->figure.width,
+                      (unsigned)o->figure.height);
     return wrong ? -1 : 0;
 }
 

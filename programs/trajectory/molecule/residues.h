@@ -11,9 +11,4 @@
  * its state or its end that force fields put behind or before (HISE, LYSH, CYS2, NALA), a nucleotide, water. */
 int residue_is_organic(text_span residue);
 
-/* Whether it is an amino acid of a protein in any state, or a cap at its end; or water. Unlike residue_is_organic this
- * takes no name for the letters in it: GLYC is glycerol. */
-int residue_is_protein(const char *residue);
-int residue_is_water(const char *residue);
-
 #endif

@@ -72,6 +72,7 @@ char **view_draw_command(view_draw *d, const cgt_camera *camera, const char *pat
 {
     const renderer *const r = &d->r;
     const render_options *const o = &r->options;
+    const figure_options *const s = &r->figure.options;
     command c = {0};
     char *text = NULL;
     size_t size = 0;
@@ -84,26 +85,26 @@ char **view_draw_command(view_draw *d, const cgt_camera *camera, const char *pat
     if (is_printed)
         add(&c, "--camera=%.*s", (int)(size - 1), text);
     free(text);
-    if (renderer_is_moved(r) && !o->reading.has_origin)
-        add(&c, "--origin=%.17g,%.17g,%.17g", r->origin[0], r->origin[1], r->origin[2]);
-    add(&c, "--size=%ux%u", o->width, o->height);
-    add(&c, "--antialias=%u", o->samples);
+    if (figure_is_moved(&r->figure) && !o->reading.has_origin)
+        add(&c, "--origin=%.17g,%.17g,%.17g", r->figure.origin[0], r->figure.origin[1], r->figure.origin[2]);
+    add(&c, "--size=%ux%u", s->width, s->height);
+    add(&c, "--antialias=%u", s->samples);
     /* -c excludes --up, which says what height is */
-    add(&c, "--color=%s", r->coloring.by == COLORING_HEIGHT && o->has_up ? view_draw_measured(o) : d->color);
-    if (view_draw_has_range(&r->coloring))
-        add(&c, "--range=%.17g,%.17g", r->coloring.min, r->coloring.max);
-    if (o->picture.ortho)
+    add(&c, "--color=%s", r->figure.coloring.by == COLORING_HEIGHT && s->has_up ? view_draw_measured(s) : d->color);
+    if (view_draw_has_range(&r->figure.coloring))
+        add(&c, "--range=%.17g,%.17g", r->figure.coloring.min, r->figure.coloring.max);
+    if (s->picture.ortho)
         add(&c, "--ortho");
-    if (o->floor.is_set) {
+    if (s->floor.is_set) {
         static const char *const axes[] = {"x", "y", "z", "-x", "-y", "-z"};
-        const double *const at = o->floor.place;
-        add(&c, "--floor-axis=%s", axes[o->floor.axis - 1]);
+        const double *const at = s->floor.place;
+        add(&c, "--floor-axis=%s", axes[s->floor.axis - 1]);
         add(&c, "--floor-place=%.17g,%.17g,%.17g,%.17g", at[0], at[1], at[2], at[3]);
     }
     if (*d->condition)
         add(&c, "--show=%s", d->condition);
-    add(&c, "--first=%llu", (unsigned long long)r->frame->number);
-    add(&c, "--last=%llu", (unsigned long long)r->frame->number);
+    add(&c, "--first=%llu", (unsigned long long)r->figure.frame->number);
+    add(&c, "--last=%llu", (unsigned long long)r->figure.frame->number);
     add(&c, "--output=%s", pattern);
     for (size_t i = 0; i < o->input_count; i++)
         add(&c, "%s", o->inputs[i]);
@@ -122,19 +123,19 @@ static int write_picture(view_draw *d, render_options *o, const view_frame *f, c
 {
     renderer *const r = &d->r;
     image_writer *const writer = image_writer_create();
-    const size_t pixels = (size_t)o->width * o->height;
+    const size_t pixels = (size_t)o->figure.width * o->figure.height;
     uint8_t *const rgb = malloc(4 * pixels);
     const stop_flag never = 0;
     int result = -1;
-    d->alpha = o->picture.transparent && rgb ? rgb + 3 * pixels : NULL;
+    d->alpha = o->figure.picture.transparent && rgb ? rgb + 3 * pixels : NULL;
     if (!writer || !rgb)
         program_error("out of memory for the picture");
-    else if (camera_key_move(&o->camera, r->origin))
+    else if (cgt_camera_key_move(&o->figure.camera, r->figure.origin))
         program_error("eye and target of the camera are the same point");
-    else if (view_draw_set_frame(d, f, &o->camera.camera) == 0 &&
-             view_draw_picture(d, &o->camera.camera, VIEW_FULL, 1, rgb, &never) == 0) {
-        const image_content image = {.width = o->width,
-                                     .height = o->height,
+    else if (view_draw_set_frame(d, f, &o->figure.camera.camera) == 0 &&
+             view_draw_picture(d, &o->figure.camera.camera, VIEW_FULL, 1, rgb, &never) == 0) {
+        const image_content image = {.width = o->figure.width,
+                                     .height = o->figure.height,
                                      .rgb = rgb,
                                      .alpha = d->alpha,
                                      .quality = o->output.quality,
@@ -162,17 +163,17 @@ int view_draw_write(view_draw *d, char **arguments, int argc, const view_frame *
     view_options_parse_render(&o, argc, moved);
     /* what the texts say is what the command line gives */
     char *const given = d->given;
-    const int has[] = {r->options.has_camera, r->options.has_range, r->options.reading.has_origin};
+    const int has[] = {r->figure.options.has_camera, r->figure.options.has_range, r->options.reading.has_origin};
     d->given = o.settings;
-    r->options.has_camera = 1;
-    r->options.has_range = o.has_range;
+    r->figure.options.has_camera = 1;
+    r->figure.options.has_range = o.figure.has_range;
     r->options.reading.has_origin = o.reading.has_origin;
     int result = view_draw_set_up_full(d) ? -1 : write_picture(d, &o, f, path);
     d->given = given;
     free(o.settings);
     free(moved);
-    r->options.has_camera = has[0];
-    r->options.has_range = has[1];
+    r->figure.options.has_camera = has[0];
+    r->figure.options.has_range = has[1];
     r->options.reading.has_origin = has[2];
     return view_draw_set_up_full(d) ? -1 : result;
 }

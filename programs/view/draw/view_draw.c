@@ -19,10 +19,6 @@ int view_draw_set_up_full(view_draw *d)
 {
     renderer *const r = &d->r;
     render_picture_close(r);
-    memset(&r->overlay, 0, sizeof r->overlay);
-    memset(r->texts, 0, sizeof r->texts);
-    r->text_count = 0;
-    r->settings = NULL;
     r->options.settings = d->given ? strdup(d->given) : NULL;
     return render_picture_setup(r);
 }
@@ -41,14 +37,15 @@ void view_draw_name_color(view_draw *d)
 {
     static const char *const names[] = {"auto", "type", "id", "speed", "height", "", "element", ""};
     const renderer *const r = &d->r;
-    const coloring_by by = r->coloring.by;
+    const coloring_by by = r->figure.coloring.by;
     if (by == COLORING_VALUE)
-        snprintf(d->color, sizeof d->color, "%s", r->options.formula);
+        snprintf(d->color, sizeof d->color, "%s", r->figure.options.formula);
     else if (by != COLORING_PLAIN)
         snprintf(d->color, sizeof d->color, "%s", names[by]);
     else
-        snprintf(d->color, sizeof d->color, "%02x%02x%02x", (unsigned)(r->options.plain[0] * 255.0f + 0.5f),
-                 (unsigned)(r->options.plain[1] * 255.0f + 0.5f), (unsigned)(r->options.plain[2] * 255.0f + 0.5f));
+        snprintf(d->color, sizeof d->color, "%02x%02x%02x", (unsigned)(r->figure.options.plain[0] * 255.0f + 0.5f),
+                 (unsigned)(r->figure.options.plain[1] * 255.0f + 0.5f),
+                 (unsigned)(r->figure.options.plain[2] * 255.0f + 0.5f));
 }
 
 /* All frames of small files, and where a legend names what any frame has, a floor lies below all, glass is as dark as
@@ -59,7 +56,7 @@ static uint64_t choose_survey(const render_options *o)
     const off_t small = 32 << 20; /* bytes */
     off_t bytes = 0;
     struct stat info;
-    if (o->picture.legend || o->picture.bar || o->floor.is_set || o->bounce.is_set)
+    if (o->figure.picture.legend || o->figure.picture.bar || o->figure.floor.is_set || o->figure.bounce.is_set)
         return UINT64_MAX;
     for (size_t i = 0; i < o->input_count; i++)
         bytes += stat(o->inputs[i], &info) == 0 && S_ISREG(info.st_mode) ? info.st_size : small + 1;
@@ -89,7 +86,7 @@ view_draw *view_draw_open(const view_options *options)
     r->options = options->render;
     r->options.settings = NULL;
     d->given = options->render.settings;
-    d->show = strdup(options->render.particles.show);
+    d->show = strdup(options->render.figure.particles.show);
     if (r->options.output.survey == VIEW_SURVEY_AUTO)
         r->options.output.survey = choose_survey(&r->options);
     r->stop = &d->stop;
@@ -97,7 +94,7 @@ view_draw *view_draw_open(const view_options *options)
         view_draw_close(d);
         return NULL;
     }
-    view_draw_widen_range(&r->coloring);
+    view_draw_widen_range(&r->figure.coloring);
     view_draw_name_color(d);
     return d;
 }
@@ -111,8 +108,8 @@ void view_draw_stop(view_draw *d)
 void view_draw_close_scene(view_draw *d)
 {
     if (d) {
-        cgt_scene_release(d->r.scene);
-        d->r.scene = NULL;
+        cgt_scene_release(d->r.figure.scene);
+        d->r.figure.scene = NULL;
     }
 }
 
@@ -121,8 +118,7 @@ void view_draw_close(view_draw *d)
     if (!d)
         return;
     free_quick(d);
-    frame_parts_free(&d->parts);
-    d->r.source.trails = NULL; /* the reader's */
+    cgt_frame_parts_free(&d->parts);
     render_close(&d->r);
     free(d->given);
     free(d->show);
@@ -133,42 +129,41 @@ view_frames *view_draw_start_frames(view_draw *d, size_t memory, void (*wake)(vo
 {
     renderer *const r = &d->r;
     const render_options *const o = &r->options;
-    const view_frames_options options = {.paths = o->inputs,
-                                         .path_count = o->input_count,
-                                         .reading = &o->reading,
-                                         .range = o->range,
-                                         .memory = memory,
-                                         .total = r->has_survey && r->survey.has_total ? r->survey.total : 0,
-                                         .wake = wake,
-                                         .user = user};
-    if (o->particles.trails && !(r->source.trails = trail_history_create(o->particles.trails))) {
+    const view_frames_options options = {
+        .paths = o->inputs,
+        .path_count = o->input_count,
+        .reading = &o->reading,
+        .range = o->range,
+        .memory = memory,
+        .total = r->figure.has_survey && r->figure.survey.has_total ? r->figure.survey.total : 0,
+        .wake = wake,
+        .user = user};
+    if (o->figure.particles.trails &&
+        !(r->figure.sequence.trails = cgt_trail_history_create(o->figure.particles.trails))) {
         program_error("out of memory for the trails");
         return NULL;
     }
-    if (!r->source.tracker)
-        r->source.tracker =
-            speed_create(r->context); /* colours may change to speeds; without memory they are unknown */
-    trail_history *const trails = r->source.trails;
-    view_frames *const frames = view_frames_start(&r->source, &options);
-    r->source.trails = frames ? trails : NULL;
-    return frames;
+    if (!r->figure.sequence.tracker)
+        r->figure.sequence.tracker =
+            cgt_speed_create(r->context); /* colours may change to speeds; without memory they are unknown */
+    return view_frames_start(&r->source, &options);
 }
 
-render_options *view_draw_options(view_draw *d) { return &d->r.options; }
+figure_options *view_draw_options(view_draw *d) { return &d->r.figure.options; }
 const char *view_draw_color_name(const view_draw *d) { return d->color; }
 
 void view_draw_first_camera(const view_draw *d, cgt_camera *camera, float up[3])
 {
-    *camera = d->r.path.start;
-    memcpy(up, d->r.options.up, 3 * sizeof *up);
+    *camera = d->r.figure.path.start;
+    memcpy(up, d->r.figure.options.up, 3 * sizeof *up);
     if (up[0] == 0.0f && up[1] == 0.0f && up[2] == 0.0f)
         memcpy(up, camera->up, 3 * sizeof *up);
 }
 
 int view_draw_resize(view_draw *d, uint32_t width, uint32_t height)
 {
-    d->r.options.width = width;
-    d->r.options.height = height;
+    d->r.figure.options.width = width;
+    d->r.figure.options.height = height;
     free_quick(d);
     return view_draw_set_up_full(d);
 }
@@ -178,10 +173,10 @@ int view_draw_resize(view_draw *d, uint32_t width, uint32_t height)
 static int bind(view_draw *d, const view_frame *f)
 {
     renderer *const r = &d->r;
-    expression *const all[] = {r->formula,        r->parts.show,     r->parts.radius,
-                               r->parts.arrow[0], r->parts.arrow[1], r->parts.arrow[2]};
+    expression *const all[] = {r->figure.formula,        r->figure.parts.show,     r->figure.parts.radius,
+                               r->figure.parts.arrow[0], r->figure.parts.arrow[1], r->figure.parts.arrow[2]};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        if (all[i] && expression_bind(all[i], &f->frame, f->speed, r->error, sizeof r->error))
+        if (all[i] && cgt_expression_bind(all[i], &f->frame, f->speed, r->error, sizeof r->error))
             return render_fail(r);
     return 0;
 }
@@ -189,9 +184,9 @@ static int bind(view_draw *d, const view_frame *f)
 /* As cgt-render has it where -c gives this camera. */
 static void set_camera(view_draw *d, const cgt_camera *camera)
 {
-    camera_path_fixed(&d->r.path, camera, 0.0);
-    d->r.camera = *camera;
-    render_choose_light(&d->r);
+    cgt_camera_path_fixed(&d->r.figure.path, camera, 0.0);
+    d->r.figure.camera = *camera;
+    cgt_figure_choose_light(&d->r.figure);
 }
 
 int view_draw_set_frame(view_draw *d, const view_frame *f, const cgt_camera *camera)
@@ -203,21 +198,21 @@ int view_draw_set_frame(view_draw *d, const view_frame *f, const cgt_camera *cam
     set_camera(d, camera);
     if (bind(d, f))
         return -1;
-    if (coloring_apply(&r->coloring, &f->frame, f->speed)) {
+    if (cgt_coloring_apply(&r->figure.coloring, &f->frame, f->speed)) {
         program_error("out of memory for the colours");
         return -1;
     }
-    if (render_scene_prepare(r, &f->frame, r->coloring.index, &d->parts, r->error, sizeof r->error))
+    if (cgt_figure_scene_prepare(&r->figure, &f->frame, r->figure.coloring.index, &d->parts, r->error, sizeof r->error))
         return render_fail(r);
-    r->frame = &f->frame;
-    r->speed_from = f->speed_from;
-    if (render_scene_set(r, &d->parts))
+    r->figure.frame = &f->frame;
+    r->figure.speed_from = f->speed_from;
+    if (render_result(r, cgt_figure_scene_set(&r->figure, &d->parts)))
         return -1;
-    const cgt_result result = cgt_scene_commit(r->scene);
-    return result ? render_fail_library(r, "build", result) : 0;
+    const cgt_result result = cgt_scene_commit(r->figure.scene);
+    return result ? render_result(r, cgt_figure_fail_library(&r->figure, "build", result)) : 0;
 }
 
-int view_draw_follows_camera(const view_draw *d) { return render_scene_has_figures(&d->r); }
+int view_draw_follows_camera(const view_draw *d) { return cgt_figure_scene_has_figures(&d->r.figure); }
 
 /* ---- Pictures ----------------------------------------------------------------------------------------------- */
 
@@ -236,7 +231,7 @@ static void simplify(cgt_picture_options *s, view_quality quality)
 /* The picture of a quality, which is made when it is first drawn. */
 static cgt_picture *picture_of(view_draw *d, view_quality quality, const cgt_picture_options *s)
 {
-    cgt_picture **const p = quality == VIEW_FULL ? &d->r.drawing : &d->quick[quality];
+    cgt_picture **const p = quality == VIEW_FULL ? &d->r.figure.drawing : &d->quick[quality];
     const int is_new = !*p;
     const cgt_result result = is_new ? cgt_picture_create(d->r.context, s, p) : cgt_picture_set_options(*p, s);
     if (result == CGT_OK)
@@ -267,7 +262,7 @@ static void enlarge(const uint8_t *from, uint32_t from_width, uint8_t *to, uint3
 static cgt_picture_options settings_of(view_draw *d, const cgt_camera *camera, const stop_flag *stop)
 {
     set_camera(d, camera);
-    cgt_picture_options s = render_picture_settings(&d->r);
+    cgt_picture_options s = cgt_figure_get_settings(&d->r.figure);
     s.style.transparent &= d->alpha != NULL;
     s.work.stop = stop_flag_is_set;
     s.work.stop_user = stop;
@@ -280,13 +275,13 @@ static int finish_picture(view_draw *d, cgt_picture *q, cgt_result result, uint8
     renderer *const r = &d->r;
     char message[256] = "";
     if (result == CGT_OK) {
-        r->image = (cgt_image){.bytes = rgb, .alpha = d->alpha};
-        render_picture_overlay(r);
+        r->figure.image = (cgt_image){.bytes = rgb, .alpha = d->alpha};
+        cgt_figure_draw_overlay(&r->figure);
     }
     if (result == CGT_OK || result == CGT_ERROR_STOPPED)
         return result == CGT_OK ? 0 : 1;
     cgt_picture_get_error_message(q, message, sizeof message);
-    program_error("cannot draw frame %llu: %s", (unsigned long long)r->frame->number,
+    program_error("cannot draw frame %llu: %s", (unsigned long long)r->figure.frame->number,
                   *message ? message : cgt_get_result_string(result));
     return -1;
 }
@@ -295,8 +290,8 @@ int view_draw_picture(view_draw *d, const cgt_camera *camera, view_quality quali
                       const stop_flag *stop)
 {
     renderer *const r = &d->r;
-    const uint32_t width = r->options.width, height = r->options.height;
-    cgt_look looks[RENDER_LOOKS];
+    const uint32_t width = r->figure.options.width, height = r->figure.options.height;
+    cgt_look looks[FIGURE_LOOKS];
     cgt_picture_options s = settings_of(d, camera, stop);
     if (quality != VIEW_FULL)
         simplify(&s, quality);
@@ -309,9 +304,9 @@ int view_draw_picture(view_draw *d, const cgt_camera *camera, view_quality quali
     cgt_picture *const q = picture_of(d, quality, &s);
     if (!q)
         return -1;
-    const uint32_t count = render_picture_begin(r, looks);
+    const uint32_t count = cgt_figure_begin_picture(&r->figure, looks);
     const cgt_image image = {.bytes = shrink > 1 ? d->small : rgb, .alpha = d->alpha};
-    const cgt_result result = cgt_picture_draw(q, r->scene, &r->camera, looks, count, &image, NULL);
+    const cgt_result result = cgt_picture_draw(q, r->figure.scene, &r->figure.camera, looks, count, &image, NULL);
     if (result == CGT_OK && shrink > 1)
         enlarge(d->small, s.width, rgb, width, height, shrink);
     return finish_picture(d, q, result, rgb);
@@ -322,13 +317,13 @@ int view_draw_grow(view_draw *d, const cgt_camera *camera, int begins, uint8_t *
 {
     renderer *const r = &d->r;
     const cgt_image image = {.bytes = rgb};
-    cgt_look looks[RENDER_LOOKS];
+    cgt_look looks[FIGURE_LOOKS];
     const cgt_picture_options s = settings_of(d, camera, stop);
-    cgt_picture *const q = begins ? picture_of(d, VIEW_FULL, &s) : r->drawing;
+    cgt_picture *const q = begins ? picture_of(d, VIEW_FULL, &s) : r->figure.drawing;
     if (!q)
         return -1;
-    const uint32_t count = render_picture_begin(r, looks);
-    cgt_result result = begins ? cgt_picture_begin(q, r->scene, &r->camera, looks, count, NULL) : CGT_OK;
+    const uint32_t count = cgt_figure_begin_picture(&r->figure, looks);
+    cgt_result result = begins ? cgt_picture_begin(q, r->figure.scene, &r->figure.camera, looks, count, NULL) : CGT_OK;
     if (!result)
         result = cgt_picture_step(q, begins ? 0 : d->grown ? d->grown : 1, left);
     if (!result) /* as many again: steps of one ray would take twice as long in all */
@@ -343,10 +338,11 @@ int view_draw_grow(view_draw *d, const cgt_camera *camera, int begins, uint8_t *
 int view_draw_fit(view_draw *d, cgt_camera *camera)
 {
     const renderer *const r = &d->r;
-    const cgt_trajectory_frame *const f = r->frame;
+    const cgt_trajectory_frame *const f = r->figure.frame;
     if (!f)
         return 0;
-    const particles *const p = f->kind == CGT_TRAJECTORY_SPHERES && r->parts.selects ? &d->parts.particles : NULL;
+    const particles *const p =
+        f->kind == CGT_TRAJECTORY_SPHERES && r->figure.parts.selects ? &d->parts.particles : NULL;
     const float *const xyzr = p ? p->xyzr : f->xyzr; /* NULL in files of triangles */
     const size_t stride = 4 * sizeof(float);
     const cgt_spheres spheres = {.count = p ? p->count : f->count,
@@ -354,9 +350,9 @@ int view_draw_fit(view_draw *d, cgt_camera *camera)
                                  .radii = cgt_floats(xyzr ? xyzr + 3 : NULL, stride)};
     const cgt_spheres vertices = {.count = f->count, .centers = cgt_floats(f->position, 0)};
     cgt_camera fitted = *camera;
-    if (r->options.picture.ortho)
+    if (r->figure.options.picture.ortho)
         fitted.projection = CGT_PROJECTION_ORTHOGRAPHIC;
-    if (cgt_camera_fit_spheres(&fitted, r->options.width, r->options.height,
+    if (cgt_camera_fit_spheres(&fitted, r->figure.options.width, r->figure.options.height,
                                f->kind == CGT_TRAJECTORY_SPHERES ? &spheres : &vertices)) {
         program_error("there is nothing to fit the camera to");
         return -1;
@@ -372,20 +368,21 @@ int view_draw_pick(view_draw *d, const cgt_camera *camera, uint32_t x, uint32_t 
     cgt_single_ray ray = {0};
     cgt_hit found;
     memset(hit, 0, sizeof *hit);
-    if (!r->frame)
+    if (!r->figure.frame)
         return 0;
     set_camera(d, camera);
-    cgt_look looks[RENDER_LOOKS];
-    render_picture_begin(r, looks); /* the projection */
-    cgt_result result = cgt_camera_get_ray(&r->camera, r->options.width, r->options.height, x, y, ray.org, ray.dir);
+    cgt_look looks[FIGURE_LOOKS];
+    cgt_figure_begin_picture(&r->figure, looks); /* the projection */
+    cgt_result result = cgt_camera_get_ray(&r->figure.camera, r->figure.options.width, r->figure.options.height, x, y,
+                                           ray.org, ray.dir);
     if (!result)
-        result = cgt_trace_ray(r->scene, &ray, &found, NULL);
+        result = cgt_trace_ray(r->figure.scene, &ray, &found, NULL);
     if (result)
-        return render_fail_library(r, "pick", result);
+        return render_result(r, cgt_figure_fail_library(&r->figure, "pick", result));
     hit->is_hit = found.primitive != CGT_INVALID_ID;
     hit->t = found.t;
     for (int c = 0; c < 3 && hit->is_hit; c++)
         hit->place[c] = ray.org[c] + found.t * ray.dir[c];
-    hit->is_file = hit->is_hit && render_scene_find(r, found.geometry, found.primitive, &hit->element);
+    hit->is_file = hit->is_hit && cgt_figure_scene_find(&r->figure, found.geometry, found.primitive, &hit->element);
     return 0;
 }

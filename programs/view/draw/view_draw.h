@@ -9,6 +9,7 @@
 
 #include <stdio.h>
 
+#include "common/stop_flag.h"
 #include "view/view_frames.h"
 #include "view/view_options.h"
 
@@ -33,7 +34,7 @@ void view_draw_close(view_draw *d);
 view_frames *view_draw_start_frames(view_draw *d, size_t memory, void (*wake)(void *user), void *user);
 
 /* The options, of which the caller changes picture.ortho alone. */
-render_options *view_draw_options(view_draw *d);
+figure_options *view_draw_options(view_draw *d);
 
 /* The camera that the options or the survey give, perspective, less the origin; and the axis that points up. */
 void view_draw_first_camera(const view_draw *d, cgt_camera *camera, float up[3]);

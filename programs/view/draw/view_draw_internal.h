@@ -32,6 +32,6 @@ void view_draw_widen_range(coloring *c);
 void view_draw_name_color(view_draw *d);
 
 /* What is measured by a name of --color; NULL: nothing. */
-const char *view_draw_measured(const render_options *o);
+const char *view_draw_measured(const figure_options *o);
 
 #endif

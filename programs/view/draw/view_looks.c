@@ -22,14 +22,14 @@ static int find_range(expression *e, const view_frame *f, int is_whole, double *
     *min = INFINITY;
     *max = -INFINITY;
     if (value && samples)
-        expression_values(e, 0, count, value);
+        cgt_expression_values(e, 0, count, value);
     for (uint32_t i = 0; i < count && value && samples; i++)
         if (isfinite(value[i])) {
-            bulk_values_add(samples, f->frame.number, i, value[i]);
+            cgt_bulk_values_add(samples, f->frame.number, i, value[i]);
             *min = fmin(*min, value[i]);
             *max = fmax(*max, value[i]);
         }
-    if (samples && !is_whole && bulk_values_range(samples, -INFINITY, &low, &high) && low < high) {
+    if (samples && !is_whole && cgt_bulk_values_range(samples, -INFINITY, &low, &high) && low < high) {
         *min = low;
         *max = high;
     }
@@ -43,7 +43,7 @@ static int find_range(expression *e, const view_frame *f, int is_whole, double *
     return failed ? -1 : 0;
 }
 
-const char *view_draw_measured(const render_options *o)
+const char *view_draw_measured(const figure_options *o)
 {
     static const char *const axes[] = {"x", "y", "z"};
     switch (o->by) {
@@ -58,13 +58,13 @@ const char *view_draw_measured(const render_options *o)
 int view_draw_color(view_draw *d, const view_frame *f, const char *by)
 {
     renderer *const r = &d->r;
-    render_options o = r->options;
+    figure_options o = r->figure.options;
     char text[sizeof d->color];
     snprintf(text, sizeof text, "%s", by);
-    if (parse_coloring(text, &o, r->error, sizeof r->error))
+    if (cgt_parse_coloring(text, &o, r->error, sizeof r->error))
         return render_fail(r);
     const char *const name = view_draw_measured(&o);
-    expression *const e = name ? expression_parse(name, r->error, sizeof r->error) : NULL;
+    expression *const e = name ? cgt_expression_parse(name, r->error, sizeof r->error) : NULL;
     if (name && !e)
         return render_fail(r);
     o.has_range = 0;
@@ -73,28 +73,28 @@ int view_draw_color(view_draw *d, const view_frame *f, const char *by)
         o.range_min = 0.0;
         o.range_max = f->frame.count ? (double)(f->frame.count - 1) : 0.0;
     } else if (e) {
-        if (expression_bind(e, &f->frame, f->speed, r->error, sizeof r->error) ||
+        if (cgt_expression_bind(e, &f->frame, f->speed, r->error, sizeof r->error) ||
             find_range(e, f, o.by == COLORING_ID || o.by == COLORING_HEIGHT, &o.range_min, &o.range_max, r->error,
                        sizeof r->error)) {
-            expression_free(e);
+            cgt_expression_free(e);
             return render_fail(r);
         }
         o.range_min = o.by == COLORING_SPEED ? 0.0 : (double)(float)o.range_min;
         o.range_max = (double)(float)o.range_max;
         o.has_range = 1;
     }
-    expression_free(r->formula);
-    r->formula = o.by == COLORING_VALUE ? e : NULL;
+    cgt_expression_free(r->figure.formula);
+    r->figure.formula = o.by == COLORING_VALUE ? e : NULL;
     if (o.by != COLORING_VALUE)
-        expression_free(e);
+        cgt_expression_free(e);
     memcpy(d->formula, text, sizeof d->formula);
     o.formula = o.by == COLORING_VALUE ? d->formula : NULL;
-    r->options = o;
-    coloring_free(&r->coloring);
-    memset(&r->coloring, 0, sizeof r->coloring);
-    if (render_choose_colors(r))
+    r->figure.options = o;
+    cgt_coloring_free(&r->figure.coloring);
+    memset(&r->figure.coloring, 0, sizeof r->figure.coloring);
+    if (render_result(r, cgt_figure_choose_colors(&r->figure)))
         return -1;
-    view_draw_widen_range(&r->coloring);
+    view_draw_widen_range(&r->figure.coloring);
     view_draw_name_color(d);
     return view_draw_set_up_full(d);
 }
@@ -102,7 +102,7 @@ int view_draw_color(view_draw *d, const view_frame *f, const char *by)
 int view_draw_show(view_draw *d, const view_frame *f, const char *condition)
 {
     renderer *const r = &d->r;
-    particle_options *const p = &r->options.particles;
+    particle_options *const p = &r->figure.options.particles;
     char show[sizeof p->show];
     expression *e = NULL;
     const int length = snprintf(show, sizeof show, "%s%s%s", d->show, *d->show && *condition ? " && " : "", condition);
@@ -110,15 +110,16 @@ int view_draw_show(view_draw *d, const view_frame *f, const char *condition)
         program_error("the conditions of what is hidden are too long together");
         return -1;
     }
-    if (*show && (!(e = expression_parse(show, r->error, sizeof r->error)) ||
-                  expression_bind(e, &f->frame, f->speed, r->error, sizeof r->error))) {
-        expression_free(e);
+    if (*show && (!(e = cgt_expression_parse(show, r->error, sizeof r->error)) ||
+                  cgt_expression_bind(e, &f->frame, f->speed, r->error, sizeof r->error))) {
+        cgt_expression_free(e);
         return render_fail(r);
     }
-    expression_free(r->parts.show);
-    r->parts.show = e;
-    r->parts.rules.show = e;
-    r->parts.selects = !particle_rules_are_empty(&r->parts.rules) || p->bonds || p->arrows || p->trails;
+    cgt_expression_free(r->figure.parts.show);
+    r->figure.parts.show = e;
+    r->figure.parts.rules.show = e;
+    r->figure.parts.selects =
+        !cgt_particle_rules_are_empty(&r->figure.parts.rules) || p->bonds || p->arrows || p->trails;
     memcpy(p->show, show, sizeof show);
     snprintf(d->condition, sizeof d->condition, "%s", condition);
     return 0;

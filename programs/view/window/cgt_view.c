@@ -239,8 +239,8 @@ static int run(view_window *w, const view_options *o)
     w->changed = SDL_CreateCond();
     w->event = SDL_RegisterEvents(1);
     w->window =
-        SDL_CreateWindow(o->render.input, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, (int)o->render.width,
-                         (int)o->render.height, SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+        SDL_CreateWindow(o->render.input, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, (int)o->render.figure.width,
+                         (int)o->render.figure.height, SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
     if (!w->lock || !w->changed || !w->window) {
         program_error("cannot open a window: %s", SDL_GetError());
         return -1;

@@ -99,9 +99,9 @@ done <"$work/rows"
 
 # ---- The source -----------------------------------------------------------------------------------------------------
 
-for folder in common convert picture playback render; do
-    find "$source/programs/$folder" -name '*.[ch]' -o -name '*.cpp'
-done | grep -v '/option_table.c$' >"$work/files"
+for folder in figure programs/common programs/convert programs/picture programs/playback programs/render; do
+    find "$source/$folder" -name '*.[ch]' -o -name '*.cpp'
+done | grep -v '/option_\(table\|rows\).c$' >"$work/files"
 LC_ALL=C awk -F '\t' -v files="$work/files" -v root="$source/" -f "$source/tests/support/sentences.awk" \
     "$work/sentences" "$here/exceptions.tsv" || failures=$((failures + 1))
 

@@ -8,8 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "picture/color/coloring.h"
-#include "picture/figures/expression.h"
+#include "color/coloring.h"
+#include "data/expression.h"
 #include <cgt/picture.h>
 
 enum { COUNT = 300 }; /* more than a block */
@@ -47,11 +47,11 @@ static double value(const char *text, uint32_t i)
     char error[512] = "";
     const cgt_trajectory_frame frame = make_frame();
     double values[COUNT];
-    expression *e = expression_parse(text, error, sizeof error);
-    if (!e || expression_bind(e, &frame, NULL, error, sizeof error))
+    expression *e = cgt_expression_parse(text, error, sizeof error);
+    if (!e || cgt_expression_bind(e, &frame, NULL, error, sizeof error))
         fail_msg("%s", error);
-    expression_values(e, 0, COUNT, values);
-    expression_free(e);
+    cgt_expression_values(e, 0, COUNT, values);
+    cgt_expression_free(e);
     return values[i];
 }
 
@@ -101,20 +101,20 @@ TEST(wrong_formulas_are_refused)
     char error[512], deep[2000];
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         *error = '\0';
-        expression *e = expression_parse(wrong[i], error, sizeof error);
+        expression *e = cgt_expression_parse(wrong[i], error, sizeof error);
         if (e && strcmp(wrong[i], "1e") != 0)
             fail_msg("\"%s\" was taken", wrong[i]);
         assert_true(e || strstr(error, "at character"));
-        expression_free(e);
+        cgt_expression_free(e);
     }
     memset(deep, '(', sizeof deep);
     deep[sizeof deep - 1] = '\0';
-    assert_null(expression_parse(deep, error, sizeof error));
+    assert_null(cgt_expression_parse(deep, error, sizeof error));
     memset(deep, '-', sizeof deep - 1);
-    assert_null(expression_parse(deep, error, sizeof error));
+    assert_null(cgt_expression_parse(deep, error, sizeof error));
     for (size_t i = 0; i + 4 < sizeof deep; i += 3)
         memcpy(deep + i, "1^(", 4);
-    assert_null(expression_parse(deep, error, sizeof error));
+    assert_null(cgt_expression_parse(deep, error, sizeof error));
 }
 
 TEST(missing_columns_are_named)
@@ -123,22 +123,22 @@ TEST(missing_columns_are_named)
     const cgt_trajectory_frame frame = make_frame();
     static const char *const wrong[] = {"speed", "unread + 1", "id"};
     for (int i = 0; i < 3; i++) {
-        expression *e = expression_parse(wrong[i], error, sizeof error);
+        expression *e = cgt_expression_parse(wrong[i], error, sizeof error);
         assert_non_null(e);
-        assert_int_equal(expression_bind(e, &frame, NULL, error, sizeof error), -1);
+        assert_int_equal(cgt_expression_bind(e, &frame, NULL, error, sizeof error), -1);
         assert_non_null(strstr(error, "c_pe[1]"));
-        expression_free(e);
+        cgt_expression_free(e);
     }
     float speed[COUNT] = {4.0f};
-    expression *e = expression_parse("speed", error, sizeof error);
+    expression *e = cgt_expression_parse("speed", error, sizeof error);
     size_t names;
-    assert_string_equal(expression_names(e, &names)[0], "speed");
+    assert_string_equal(cgt_expression_names(e, &names)[0], "speed");
     assert_int_equal(names, 1);
-    assert_int_equal(expression_bind(e, &frame, speed, error, sizeof error), 0);
+    assert_int_equal(cgt_expression_bind(e, &frame, speed, error, sizeof error), 0);
     double first;
-    expression_values(e, 0, 1, &first);
+    cgt_expression_values(e, 0, 1, &first);
     assert_true(first == 4.0);
-    expression_free(e);
+    cgt_expression_free(e);
 }
 
 /* Atoms of two chains, water, and an ion; a blank chain; a column of numbers. */
@@ -199,11 +199,11 @@ TEST(words_choose_atoms)
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         double values[16];
         char atoms[64] = "";
-        expression *e = expression_parse(rows[i].text, error, sizeof error);
-        if (!e || expression_bind(e, &frame, NULL, error, sizeof error))
+        expression *e = cgt_expression_parse(rows[i].text, error, sizeof error);
+        if (!e || cgt_expression_bind(e, &frame, NULL, error, sizeof error))
             fail_msg("%s: %s", rows[i].text, error);
-        expression_values(e, 0, frame.count, values);
-        expression_free(e);
+        cgt_expression_values(e, 0, frame.count, values);
+        cgt_expression_free(e);
         for (uint32_t k = 0; k < frame.count; k++)
             if (values[k] != 0.0)
                 snprintf(atoms + strlen(atoms), sizeof atoms - strlen(atoms), *atoms ? " %u" : "%u", k);
@@ -235,33 +235,33 @@ TEST(words_that_do_not_fit_are_refused)
     char error[1536] = "";
     cgt_trajectory_frame frame = make_molecules();
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        expression *e = expression_parse(rows[i].text, error, sizeof error);
-        if ((e && !expression_bind(e, &frame, NULL, error, sizeof error)) || !strstr(error, rows[i].problem))
+        expression *e = cgt_expression_parse(rows[i].text, error, sizeof error);
+        if ((e && !cgt_expression_bind(e, &frame, NULL, error, sizeof error)) || !strstr(error, rows[i].problem))
             fail_msg("%s: %s", rows[i].text, error);
-        expression_free(e);
+        cgt_expression_free(e);
     }
     char many[1024] = "chain == A";
     for (int i = 0; i < 32; i++)
         strcat(many, " or chain == A");
-    assert_null(expression_parse(many, error, sizeof error));
+    assert_null(cgt_expression_parse(many, error, sizeof error));
     assert_non_null(strstr(error, "too many words"));
     memset(many, 0, sizeof many);
     for (int i = 0; i < 201; i++)
         strcat(many, "not ");
-    assert_null(expression_parse(many, error, sizeof error));
+    assert_null(cgt_expression_parse(many, error, sizeof error));
     assert_non_null(strstr(error, "nested too deeply"));
 
     frame.columns = 1; /* the name alone */
-    expression *e = expression_parse("backbone", error, sizeof error);
-    assert_int_equal(expression_bind(e, &frame, NULL, error, sizeof error), -1);
+    expression *e = cgt_expression_parse("backbone", error, sizeof error);
+    assert_int_equal(cgt_expression_bind(e, &frame, NULL, error, sizeof error), -1);
     assert_non_null(strstr(error, "no column \"resname\", by which to know protein, but x, y, z, name"));
     const cgt_trajectory_column numbers = {"resname", CGT_TRAJECTORY_WHOLE, xyzr, 0, NULL};
     cgt_trajectory_column two[2] = {frame.column[0], numbers};
     frame.columns = 2;
     frame.column = two;
-    assert_int_equal(expression_bind(e, &frame, NULL, error, sizeof error), -1);
+    assert_int_equal(cgt_expression_bind(e, &frame, NULL, error, sizeof error), -1);
     assert_non_null(strstr(error, "numbers in the column \"resname\", by which to know protein"));
-    expression_free(e);
+    cgt_expression_free(e);
 }
 
 TEST(colours_follow_formulas_and_kinds)
@@ -269,41 +269,41 @@ TEST(colours_follow_formulas_and_kinds)
     static coloring c;
     char error[512];
     const cgt_trajectory_frame frame = make_frame();
-    expression *e = expression_parse("x", error, sizeof error);
-    assert_int_equal(expression_bind(e, &frame, NULL, error, sizeof error), 0);
-    assert_int_equal(coloring_init(&c, COLORING_VALUE, NULL, 1.0f, 100.0f), 0);
+    expression *e = cgt_expression_parse("x", error, sizeof error);
+    assert_int_equal(cgt_expression_bind(e, &frame, NULL, error, sizeof error), 0);
+    assert_int_equal(cgt_coloring_init(&c, COLORING_VALUE, NULL, 1.0f, 100.0f), 0);
     c.formula = e;
-    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    assert_int_equal(cgt_coloring_apply(&c, &frame, NULL), 0);
     assert_int_equal(c.index[1], 0);
     assert_int_equal(c.index[299], COLORING_STEPS - 1);
     assert_in_range(c.index[50], 505, 508); /* 49 / 99 of the way */
     c.logarithmic = 1;
-    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    assert_int_equal(cgt_coloring_apply(&c, &frame, NULL), 0);
     assert_in_range(c.index[10], 510, 513); /* halfway from 1 to 100 */
     assert_int_equal(c.index[0], 0);        /* 0 is below every range */
-    coloring_free(&c);
-    expression_free(e);
-    e = expression_parse("(x - 1) / 0", error, sizeof error);
-    assert_int_equal(expression_bind(e, &frame, NULL, error, sizeof error), 0);
-    assert_int_equal(coloring_init(&c, COLORING_VALUE, NULL, 1.0f, 100.0f), 0);
+    cgt_coloring_free(&c);
+    cgt_expression_free(e);
+    e = cgt_expression_parse("(x - 1) / 0", error, sizeof error);
+    assert_int_equal(cgt_expression_bind(e, &frame, NULL, error, sizeof error), 0);
+    assert_int_equal(cgt_coloring_init(&c, COLORING_VALUE, NULL, 1.0f, 100.0f), 0);
     c.formula = e;
-    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    assert_int_equal(cgt_coloring_apply(&c, &frame, NULL), 0);
     for (int i = 0; i < 3; i++) /* infinite, or no number */
         assert_int_equal(c.index[i], COLORING_UNKNOWN);
-    coloring_free(&c);
-    expression_free(e);
+    cgt_coloring_free(&c);
+    cgt_expression_free(e);
 
-    assert_int_equal(coloring_init(&c, COLORING_ELEMENT, NULL, 0.0f, 0.0f), 0);
-    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    assert_int_equal(cgt_coloring_init(&c, COLORING_ELEMENT, NULL, 0.0f, 0.0f), 0);
+    assert_int_equal(cgt_coloring_apply(&c, &frame, NULL), 0);
     const float *oxygen = c.palette[c.index[1]], *hydrogen = c.palette[c.index[0]];
     assert_true(oxygen[0] == 1.0f && oxygen[1] < 0.01f && hydrogen[2] == 1.0f); /* red, white */
-    coloring_free(&c);
-    assert_int_equal(coloring_init(&c, COLORING_TYPE, NULL, 0.0f, 0.0f), 0);
-    coloring_set_kind(&c, 3, (const float[]){0.0f, 1.0f, 0.0f});
-    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    cgt_coloring_free(&c);
+    assert_int_equal(cgt_coloring_init(&c, COLORING_TYPE, NULL, 0.0f, 0.0f), 0);
+    cgt_coloring_set_kind(&c, 3, (const float[]){0.0f, 1.0f, 0.0f});
+    assert_int_equal(cgt_coloring_apply(&c, &frame, NULL), 0);
     assert_true(c.palette[c.index[2]][1] == 1.0f && c.palette[c.index[2]][0] == 0.0f);
     assert_true(c.palette[c.index[1]][1] != 1.0f);
-    coloring_free(&c);
+    cgt_coloring_free(&c);
 }
 
 SUITE(NULL, NULL)

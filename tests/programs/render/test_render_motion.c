@@ -9,10 +9,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "playback/camera/camera_keys.h"
-#include "playback/camera/camera_path.h"
-#include "playback/frame_source.h"
-#include "playback/speed.h"
+#include "camera/camera_keys.h"
+#include "camera/camera_path.h"
+#include "playback/survey_run.h"
+#include "sequence/speed.h"
 
 static cgt_context *context; /* of two threads */
 
@@ -44,7 +44,7 @@ static void take(speed_case *s, int64_t step, uint32_t count, const float *xyzr,
         frame.box_edge[c][c] = (double)box;
         frame.periodic[c] = 1;
     }
-    assert_int_equal(speed_next(s->tracker, &frame, &s->speeds, &s->source), 0);
+    assert_int_equal(cgt_speed_next(s->tracker, &frame, &s->speeds, &s->source), 0);
 }
 
 TEST(speeds_follow_ids)
@@ -52,7 +52,7 @@ TEST(speeds_follow_ids)
     const float first[] = {0, 0, 0, 1, 5, 5, 5, 1, 9, 9, 9, 1};
     const float then[] = {9, 9, 7, 1, 3, 0, 4, 1, 1, 1, 1, 1, 5, 5, NAN, 1};
     const uint32_t first_id[] = {7, 4000000000u, 2}, then_id[] = {2, 7, 11, 4000000000u};
-    speed_case s = {speed_create(context), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {cgt_speed_create(context), NULL, SPEED_FROM_VELOCITY};
     assert_non_null(s.tracker);
     take(&s, 100, 3, first, first_id, 0.0f);
     assert_true(isnan(s.speeds[0]) && isnan(s.speeds[1]) && isnan(s.speeds[2]));
@@ -67,10 +67,10 @@ TEST(speeds_follow_ids)
     take(&s, 120, 0, then, then_id, 0.0f);
     take(&s, 130, 3, first, first_id, 0.0f);
     assert_true(isnan(s.speeds[0]) && isnan(s.speeds[2])); /* the frame before was empty */
-    speed_restart(s.tracker);
+    cgt_speed_restart(s.tracker);
     take(&s, 140, 3, first, first_id, 0.0f);
     assert_true(isnan(s.speeds[0]));
-    speed_release(s.tracker);
+    cgt_speed_release(s.tracker);
 }
 
 /* By ids, through the boundary, and unknown where the second frame does not have the sphere. */
@@ -78,7 +78,7 @@ TEST(speeds_of_the_first_frame_look_ahead)
 {
     const float first[] = {9.75f, 5, 5, 1, 1, 1, 1, 1, 2, 2, 2, 1}, then[] = {1, 1, 4, 1, 0.25f, 5, 5, 1};
     const uint32_t first_id[] = {7, 8, 9}, then_id[] = {8, 7};
-    speed_case s = {speed_create(context), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {cgt_speed_create(context), NULL, SPEED_FROM_VELOCITY};
     cgt_trajectory_frame next = {.step = 5, .count = 2, .xyzr = then, .id = then_id, .periodic = {1, 1, 1}};
     for (int c = 0; c < 3; c++)
         next.box_edge[c][c] = 10.0;
@@ -86,29 +86,29 @@ TEST(speeds_of_the_first_frame_look_ahead)
         take(&s, 0, 3, first, first_id, 10.0f);
         assert_true(round ? s.speeds[0] == 0.5f && s.speeds[1] == 3.0f : isnan(s.speeds[0]) && isnan(s.speeds[1]));
         assert_true(isnan(s.speeds[2]));
-        assert_int_equal(speed_look_ahead(s.tracker, &next), 0);
-        speed_restart(s.tracker);
+        assert_int_equal(cgt_speed_look_ahead(s.tracker, &next), 0);
+        cgt_speed_restart(s.tracker);
     }
     next.step = 0; /* no time goes by */
     take(&s, 0, 3, first, first_id, 10.0f);
-    assert_int_equal(speed_look_ahead(s.tracker, &next), 0);
-    speed_restart(s.tracker);
+    assert_int_equal(cgt_speed_look_ahead(s.tracker, &next), 0);
+    cgt_speed_restart(s.tracker);
     take(&s, 0, 3, first, first_id, 10.0f);
     assert_true(isnan(s.speeds[0]));
-    speed_release(s.tracker);
+    cgt_speed_release(s.tracker);
 }
 
 TEST(speeds_go_the_short_way_round_the_box)
 {
     const float first[] = {9.75f, 5, 0.25f, 1}, then[] = {0.25f, 5, 9.75f, 1};
     const uint32_t id[] = {1};
-    speed_case s = {speed_create(context), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {cgt_speed_create(context), NULL, SPEED_FROM_VELOCITY};
     take(&s, 0, 1, first, id, 10.0f);
     take(&s, 1, 1, then, id, 10.0f);
     assert_near(s.speeds[0], sqrt(0.5), 1e-6);
     take(&s, 2, 1, first, id, 0.0f); /* no box: the unwrapped distance */
     assert_near(s.speeds[0], sqrt(2.0 * 9.5 * 9.5), 1e-5);
-    speed_release(s.tracker);
+    cgt_speed_release(s.tracker);
 }
 
 /* A step d of each sphere, and where it ends where the box's edges are taken away `image` times. */
@@ -121,12 +121,12 @@ static void take_step(speed_case *s, cgt_trajectory_frame frame, const double d[
             at -= image[e] * frame.box_edge[e][c];
         xyzr[1][c] = (float)at;
     }
-    speed_restart(s->tracker);
+    cgt_speed_restart(s->tracker);
     frame.count = 1;
     for (int k = 0; k < 2; k++) {
         frame.step = k;
         frame.xyzr = xyzr[k];
-        assert_int_equal(speed_next(s->tracker, &frame, &s->speeds, &s->source), 0);
+        assert_int_equal(cgt_speed_next(s->tracker, &frame, &s->speeds, &s->source), 0);
     }
 }
 
@@ -139,7 +139,7 @@ TEST(speeds_go_the_short_way_round_tilted_boxes)
                                          {{8, 0, 0}, {0, 8, 0}, {4, 4, 5.65625}}, /* as a rhombic dodecahedron's */
                                          {{20, 0, 0}, {5, 20, 0}, {0, 0, 1}}};
     static const double d[3] = {0.125, -0.25, 0.0625};
-    speed_case s = {speed_create(context), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {cgt_speed_create(context), NULL, SPEED_FROM_VELOCITY};
     for (size_t k = 0; k < sizeof edges / sizeof edges[0]; k++)
         for (int i = 0; i < 27; i++) {
             const int image[3] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
@@ -148,7 +148,7 @@ TEST(speeds_go_the_short_way_round_tilted_boxes)
             take_step(&s, frame, d, image);
             assert_near(s.speeds[0], 0.28641, 1e-5);
         }
-    speed_release(s.tracker);
+    cgt_speed_release(s.tracker);
 }
 
 /* Walls, and positions that go on beyond the boundary: a step is as long as it says, along that edge alone. */
@@ -156,7 +156,7 @@ TEST(speeds_keep_long_steps)
 {
     static const double d[3] = {8, 8, 8};
     static const int none[3] = {0, 0, 0};
-    speed_case s = {speed_create(context), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {cgt_speed_create(context), NULL, SPEED_FROM_VELOCITY};
     for (int long_ones = 0; long_ones < 8; long_ones++) {
         cgt_trajectory_frame walls = {.kind = CGT_TRAJECTORY_SPHERES}, unwrapped = walls;
         double square = 0.0;
@@ -173,36 +173,36 @@ TEST(speeds_keep_long_steps)
         take_step(&s, unwrapped, d, none);
         assert_near(s.speeds[0], sqrt(square), 1e-5);
     }
-    speed_release(s.tracker);
+    cgt_speed_release(s.tracker);
 }
 
 TEST(speeds_without_a_box_note_long_steps)
 {
     const float first[] = {9.75f, 5, 0.25f, 1}, then[] = {0.25f, 5, 1.25f, 1};
     float longest[3];
-    speed_case s = {speed_create(context), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {cgt_speed_create(context), NULL, SPEED_FROM_VELOCITY};
     cgt_trajectory_frame frame = {.count = 1, .xyzr = first, .box_min = {1, 1, 1}, .box_max = {-1, -1, -1}};
-    assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
+    assert_int_equal(cgt_speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     frame.xyzr = then;
     frame.step = 1;
-    assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
-    speed_boxless_steps(s.tracker, longest);
+    assert_int_equal(cgt_speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
+    cgt_speed_boxless_steps(s.tracker, longest);
     assert_true(longest[0] == 9.5f && longest[1] == 0.0f && longest[2] == 1.0f);
     frame.box_min[0] = frame.box_min[1] = frame.box_min[2] = -2.0f;
     for (frame.step = 2; frame.step < 4; frame.step++) {
         frame.xyzr = frame.step == 2 ? first : then;
-        assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
+        assert_int_equal(cgt_speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     }
-    speed_boxless_steps(s.tracker, longest);
+    cgt_speed_boxless_steps(s.tracker, longest);
     assert_true(longest[0] == 0.0f);
-    speed_release(s.tracker);
+    cgt_speed_release(s.tracker);
 }
 
 TEST(speeds_without_ids_keep_places)
 {
     const float a[] = {0, 0, 0, 1, 1, 1, 1, 1}, b[] = {0, 2, 0, 1, 1, 1, 1, 1, 8, 8, 8, 1};
     const uint32_t id[] = {1, 2};
-    speed_case s = {speed_create(context), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {cgt_speed_create(context), NULL, SPEED_FROM_VELOCITY};
     take(&s, 0, 2, a, NULL, 0.0f);
     take(&s, 2, 3, b, NULL, 0.0f);
     assert_near(s.speeds[0], 2.0, 1e-7);
@@ -212,19 +212,19 @@ TEST(speeds_without_ids_keep_places)
     assert_true(isnan(s.speeds[0])); /* fewer: their identity is unknown */
     take(&s, 4, 2, a, id, 0.0f);
     assert_true(isnan(s.speeds[0])); /* ids from here on say nothing of the frame before */
-    speed_release(s.tracker);
+    cgt_speed_release(s.tracker);
 }
 
 TEST(speeds_take_velocities)
 {
     const float xyzr[8] = {0}, velocity[] = {3, 0, 4, INFINITY, 0, 0};
     const cgt_trajectory_frame frame = {.count = 2, .xyzr = xyzr, .velocity = velocity};
-    speed_case s = {speed_create(context), NULL, SPEED_FROM_POSITIONS};
-    assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
+    speed_case s = {cgt_speed_create(context), NULL, SPEED_FROM_POSITIONS};
+    assert_int_equal(cgt_speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     assert_int_equal(s.source, SPEED_FROM_VELOCITY);
     assert_near(s.speeds[0], 5.0, 0.0);
     assert_true(isnan(s.speeds[1]));
-    speed_release(s.tracker);
+    cgt_speed_release(s.tracker);
 }
 
 /* Vertices keep their positions for any ids of the triangles. */
@@ -239,16 +239,16 @@ TEST(speeds_of_vertices)
                                   .position = a,
                                   .id = id,
                                   .box_min = {1, 1, 1}};
-    speed_case s = {speed_create(context), NULL, SPEED_FROM_VELOCITY};
-    assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
+    speed_case s = {cgt_speed_create(context), NULL, SPEED_FROM_VELOCITY};
+    assert_int_equal(cgt_speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     assert_true(isnan(s.speeds[0]) && isnan(s.speeds[1]));
     frame.position = b;
     frame.step = 2;
-    assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
+    assert_int_equal(cgt_speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     assert_near(s.speeds[0], 5.0, 1e-7);
     assert_near(s.speeds[1], 0.0, 0.0);
     assert_int_equal(s.source, SPEED_FROM_POSITIONS);
-    speed_release(s.tracker);
+    cgt_speed_release(s.tracker);
 }
 
 /* Many ids in another order each frame: each is found, identified by the distance that only it moves. */
@@ -259,7 +259,7 @@ TEST(speeds_of_many_shuffled_ids)
     float *xyzr = calloc(COUNT * 4, sizeof *xyzr);
     uint32_t *id = calloc(COUNT, sizeof *id);
     uint64_t seed = 12345;
-    speed_case s = {speed_create(context), NULL, SPEED_FROM_VELOCITY};
+    speed_case s = {cgt_speed_create(context), NULL, SPEED_FROM_VELOCITY};
     assert_non_null(xyzr);
     assert_non_null(id);
     for (uint32_t i = 0; i < COUNT; i++)
@@ -280,10 +280,10 @@ TEST(speeds_of_many_shuffled_ids)
             const uint32_t k = id[i] / APART;
             assert_near(s.speeds[i], k, 0.0);
         }
-        speed_boxless_steps(s.tracker, longest);
+        cgt_speed_boxless_steps(s.tracker, longest);
         assert_true(longest[0] == (frame > 0 ? (float)(COUNT - 1) : 0.0f) && longest[1] == 0.0f);
     }
-    speed_release(s.tracker);
+    cgt_speed_release(s.tracker);
     free(xyzr);
     free(id);
 }
@@ -291,7 +291,7 @@ TEST(speeds_of_many_shuffled_ids)
 TEST(quantiles_are_close)
 {
     static survey s;
-    assert_true(survey_speed_quantile(&s, 0.99) == 0.0f);
+    assert_true(cgt_survey_speed_quantile(&s, 0.99) == 0.0f);
     for (int i = 1; i <= 10000; i++) {
         const float speed = (float)i * 1e-3f;
         uint32_t bits;
@@ -299,9 +299,9 @@ TEST(quantiles_are_close)
         s.speed_bins[bits >> 19]++;
         s.speeds++;
     }
-    assert_true(survey_speed_quantile(&s, 0.99) >= 9.9f && survey_speed_quantile(&s, 0.99) <= 9.9f * 1.0625f);
-    assert_true(survey_speed_quantile(&s, 0.5) >= 5.0f && survey_speed_quantile(&s, 0.5) <= 5.0f * 1.0625f);
-    assert_true(survey_speed_quantile(&s, 1.0) >= 10.0f);
+    assert_true(cgt_survey_speed_quantile(&s, 0.99) >= 9.9f && cgt_survey_speed_quantile(&s, 0.99) <= 9.9f * 1.0625f);
+    assert_true(cgt_survey_speed_quantile(&s, 0.5) >= 5.0f && cgt_survey_speed_quantile(&s, 0.5) <= 5.0f * 1.0625f);
+    assert_true(cgt_survey_speed_quantile(&s, 1.0) >= 10.0f);
 }
 
 /* Ranks are those of all values up to BULK_SAMPLES of them; of more, samples are near, and the same in any order. */
@@ -309,21 +309,21 @@ TEST(ranges_of_values_are_quantiles)
 {
     static bulk_values few, many, parts[2];
     double low, high;
-    assert_int_equal(bulk_values_range(&few, -INFINITY, &low, &high), 0);
+    assert_int_equal(cgt_bulk_values_range(&few, -INFINITY, &low, &high), 0);
     for (uint32_t i = 0; i < 1001; i++)
-        bulk_values_add(&few, 3, i, i == 500 ? 1e9 : (double)i - 100.0);
-    assert_int_equal(bulk_values_range(&few, -INFINITY, &low, &high), 1);
+        cgt_bulk_values_add(&few, 3, i, i == 500 ? 1e9 : (double)i - 100.0);
+    assert_int_equal(cgt_bulk_values_range(&few, -INFINITY, &low, &high), 1);
     assert_true(low == -90.0 && high == 891.0);
-    assert_int_equal(bulk_values_range(&few, 0.0, &low, &high), 1);
+    assert_int_equal(cgt_bulk_values_range(&few, 0.0, &low, &high), 1);
     assert_true(low == 9.0 && high == 893.0);
     for (uint32_t i = 0; i < 100000; i++) {
-        bulk_values_add(&many, i % 7, i, (double)i);
-        bulk_values_add(&parts[i % 3 == 0], i % 7, i, (double)i);
+        cgt_bulk_values_add(&many, i % 7, i, (double)i);
+        cgt_bulk_values_add(&parts[i % 3 == 0], i % 7, i, (double)i);
     }
-    bulk_values_sort(&many);
-    bulk_values_merge(&parts[0], &parts[1]);
+    cgt_bulk_values_sort(&many);
+    cgt_bulk_values_merge(&parts[0], &parts[1]);
     assert_memory_equal(&many, &parts[0], sizeof many);
-    assert_int_equal(bulk_values_range(&many, -INFINITY, &low, &high), 1);
+    assert_int_equal(cgt_bulk_values_range(&many, -INFINITY, &low, &high), 1);
     assert_true(low > 500.0 && low < 1500.0 && high > 98500.0 && high < 99500.0);
 }
 
@@ -337,10 +337,10 @@ TEST(ranges_of_rare_values_are_whole)
     s.value_max = 5.0;
     s.value_least = 5.0;
     for (uint32_t i = 0; i < 1000; i++)
-        bulk_values_add(&s.value_samples, 0, i, i == 3 ? -2.0 : i == 4 ? 5.0 : 0.0);
-    assert_int_equal(survey_value_range(&s, 0, &low, &high), 0);
+        cgt_bulk_values_add(&s.value_samples, 0, i, i == 3 ? -2.0 : i == 4 ? 5.0 : 0.0);
+    assert_int_equal(cgt_survey_value_range(&s, 0, &low, &high), 0);
     assert_true(low == -2.0 && high == 5.0);
-    assert_int_equal(survey_value_range(&s, 1, &low, &high), 0);
+    assert_int_equal(cgt_survey_value_range(&s, 1, &low, &high), 0);
     assert_true(low == 5.0 && high == 5.0);
 }
 
@@ -383,7 +383,7 @@ static int frame_box(camera_path *path, const float min[3], const float max[3], 
     cgt_camera_directions_set(&fit, view, up, 30.0f, aspect, orbit, 0);
     cgt_camera_reach_clear(&reach);
     cgt_camera_reach_add_box(&reach, &fit, min, max);
-    return camera_path_fit(path, &fit, &reach, min, max);
+    return cgt_camera_path_fit(path, &fit, &reach, min, max);
 }
 
 /* All corners are inside, and at one position of the orbit a corner is near the edge: the box is entirely visible, and
@@ -396,7 +396,7 @@ static void check_framing(const float min[3], const float max[3], const float up
     assert_int_equal(frame_box(&path, min, max, view, up, aspect, orbit), 0);
     for (int stop = 0; stop <= 72; stop++) {
         cgt_camera camera;
-        camera_path_at(&path, stop / 72.0, &camera);
+        cgt_camera_path_at(&path, stop / 72.0, &camera);
         for (int corner = 0; corner < 8; corner++) {
             double point[3], at[2];
             for (int c = 0; c < 3; c++)
@@ -526,7 +526,7 @@ TEST(automatic_cameras_fill_the_picture)
                 max[c] = fmaxf(max[c], ball[i][c] + ball[i][3]);
             }
         }
-        assert_int_equal(camera_path_fit(&path, &fit, &measured, min, max), 0);
+        assert_int_equal(cgt_camera_path_fit(&path, &fit, &measured, min, max), 0);
         reach_of_balls(&path.start, ball, 3, aspect, is_parallel, reach);
         const double wide = fmax(reach[0], reach[1]), high = fmax(reach[2], reach[3]);
         if (wide > 0.97 || high > 0.97 || (!(is_parallel && k / 6 == 3) && fmax(wide, high) < 0.95))
@@ -543,18 +543,18 @@ TEST(orbits_keep_distance_and_close)
     cgt_camera_init(&given);
     given.eye[0] = 3.0f;
     given.target[1] = 1.0f;
-    camera_path_fixed(&path, &given, 360.0);
-    camera_path_at(&path, 0.0, &at);
+    cgt_camera_path_fixed(&path, &given, 360.0);
+    cgt_camera_path_at(&path, 0.0, &at);
     assert_memory_equal(at.eye, given.eye, sizeof at.eye);
-    camera_path_at(&path, 1.0, &at);
+    cgt_camera_path_at(&path, 1.0, &at);
     for (int c = 0; c < 3; c++)
         assert_near(at.eye[c], given.eye[c], 1e-5);
-    camera_path_at(&path, 0.25, &at); /* a quarter, about y, counter-clockwise: x goes to -z, z to x */
+    cgt_camera_path_at(&path, 0.25, &at); /* a quarter, about y, counter-clockwise: x goes to -z, z to x */
     assert_near(at.eye[0], given.eye[2], 1e-5);
     assert_near(at.eye[1], given.eye[1], 1e-5);
     assert_near(at.eye[2], -given.eye[0], 1e-5);
-    camera_path_fixed(&path, &given, 0.0);
-    camera_path_at(&path, 0.7, &at);
+    cgt_camera_path_fixed(&path, &given, 0.0);
+    cgt_camera_path_at(&path, 0.7, &at);
     assert_memory_equal(&at, &given, sizeof at);
 }
 
@@ -576,10 +576,10 @@ TEST(the_bulk_leaves_strays_out)
             }
             if (stray && i == 500)
                 p[1] = 1e6f;
-            bulk_add(&b, i / 70, i, i, p, 0.5f);
+            cgt_bulk_add(&b, i / 70, i, i, p, 0.5f);
         }
         float min[3] = {-0.5f, -0.5f, -0.5f}, max[3] = {10.5f, stray ? 1e6f : 10.5f, 10.5f};
-        const uint64_t outside = bulk_narrow(&b, min, max, &narrowed);
+        const uint64_t outside = cgt_bulk_narrow(&b, min, max, &narrowed);
         assert_int_equal(narrowed, stray > 0);
         assert_int_equal(outside, stray > 0);
         assert_true(max[1] > 10.0f && max[1] <= 10.5f);
@@ -588,7 +588,7 @@ TEST(the_bulk_leaves_strays_out)
     }
     memset(&b, 0, sizeof b);
     float min[3] = {0}, max[3] = {1.0f, 1.0f, 1.0f};
-    assert_int_equal(bulk_narrow(&b, min, max, &narrowed), 0);
+    assert_int_equal(cgt_bulk_narrow(&b, min, max, &narrowed), 0);
     assert_int_equal(narrowed, 0);
 }
 
@@ -611,8 +611,8 @@ TEST(the_bulk_of_one_place_is_all)
         }
         memset(&b, 0, sizeof b);
         for (uint32_t i = 0; i < count; i++)
-            bulk_add(&b, 0, i, i, p, 0.1f);
-        assert_int_equal(bulk_narrow(&b, min, max, &narrowed), 0);
+            cgt_bulk_add(&b, 0, i, i, p, 0.1f);
+        assert_int_equal(cgt_bulk_narrow(&b, min, max, &narrowed), 0);
         assert_int_equal(narrowed, 0);
         assert_true(min[0] == p[0] - 0.1f && max[2] == p[2] + 0.1f);
     }
@@ -628,7 +628,7 @@ static void add_falls(bulk *b, uint64_t first, uint64_t frames, float height, fl
             float p[3] = {0.5f * (float)(i % 20), 0.5f * (float)(i / 20), falls ? height : 0.0025f * (float)i};
             if (frame == 199 && i == 17 && stray > 0.0f)
                 p[2] = stray;
-            bulk_add(b, frame, i, 1000 + i, p, 0.5f);
+            cgt_bulk_add(b, frame, i, 1000 + i, p, 0.5f);
         }
 }
 
@@ -650,8 +650,8 @@ TEST(the_bulk_has_what_falls_in)
             memset(&part, 0, sizeof part);
             add_falls(&b, 0, parts == 1 ? 200 : 31, rows[row].height, rows[row].stray);
             add_falls(&part, 31, parts == 1 ? 0 : 169, rows[row].height, rows[row].stray);
-            bulk_merge(&b, &part);
-            bulk_narrow(&b, min, max, &narrowed);
+            cgt_bulk_merge(&b, &part);
+            cgt_bulk_narrow(&b, min, max, &narrowed);
             if (fabsf(max[2] - rows[row].top) > 0.1f || narrowed != rows[row].narrowed)
                 fail_msg("row %zu, %d parts: up to %g, narrowed %d", row, parts, (double)max[2], narrowed);
             assert_true(min[2] == -0.5f && max[0] == 10.0f);
@@ -662,13 +662,13 @@ TEST(the_bulk_has_what_falls_in)
     memset(&backwards, 0, sizeof backwards);
     for (uint32_t k = 0; k < 60000; k++) {
         const uint32_t i = k % 30000;
-        bulk_add(&b, k / 30000, i, i, (const float[]){(float)i, (float)(k / 30000), 0.0f}, 0.5f);
+        cgt_bulk_add(&b, k / 30000, i, i, (const float[]){(float)i, (float)(k / 30000), 0.0f}, 0.5f);
         const uint32_t back = 59999 - k;
-        bulk_add(&backwards, back / 30000, back % 30000, back % 30000,
-                 (const float[]){(float)(back % 30000), (float)(back / 30000), 0.0f}, 0.5f);
+        cgt_bulk_add(&backwards, back / 30000, back % 30000, back % 30000,
+                     (const float[]){(float)(back % 30000), (float)(back / 30000), 0.0f}, 0.5f);
     }
-    bulk_sort(&b);
-    bulk_sort(&backwards);
+    cgt_bulk_sort(&b);
+    cgt_bulk_sort(&backwards);
     assert_int_equal(b.particles, BULK_SAMPLES);
     assert_memory_equal(&b, &backwards, sizeof b);
     for (uint32_t i = 0; i < b.particles; i++)
@@ -692,32 +692,32 @@ TEST(keys_move_the_camera)
     char error[512];
     const char *path = write_keys("# a comment\n\n10 8,0,0,0,0,0,0,0,1,30 linear\n20 0,2,0,0,0,0,0,0,1,50\n"
                                   "40 0,-2,0,0,0,0,0,0,1,50 hold\n50 0,-9,0,0,0,0,0,0,1,20 ease\n");
-    assert_int_equal(camera_keys_read(&keys, path, error, sizeof error), 0);
+    assert_int_equal(cgt_camera_keys_read(&keys, path, error, sizeof error), 0);
     assert_int_equal(keys.count, 4);
-    camera_keys_at(&keys, 3, &c); /* before the first */
+    cgt_camera_keys_at(&keys, 3, &c); /* before the first */
     assert_true(c.eye[0] == 8.0f && c.fov == 30.0f);
-    camera_keys_at(&keys, 15, &c); /* halfway: on the arc, at the geometric mean of 8 and 2 */
+    cgt_camera_keys_at(&keys, 15, &c); /* halfway: on the arc, at the geometric mean of 8 and 2 */
     assert_true(fabsf(c.eye[0] - 2.828427f) < 1e-5f && fabsf(c.eye[1] - 2.828427f) < 1e-5f && c.fov == 40.0f);
-    camera_keys_at(&keys, 20, &c);
+    cgt_camera_keys_at(&keys, 20, &c);
     assert_true(c.eye[1] == 2.0f && c.fov == 50.0f);
-    camera_keys_at(&keys, 22, &c); /* a tenth of the time: 0.028 of half a turn, over the top */
+    cgt_camera_keys_at(&keys, 22, &c); /* a tenth of the time: 0.028 of half a turn, over the top */
     assert_true(fabsf(c.eye[2] - 2.0f * sinf(0.028f * 3.14159265f)) < 1e-5f && c.eye[1] > 1.9f);
-    camera_keys_at(&keys, 30, &c);
+    cgt_camera_keys_at(&keys, 30, &c);
     assert_true(fabsf(c.eye[2] - 2.0f) < 1e-5f);
-    camera_keys_at(&keys, 49, &c); /* held */
+    cgt_camera_keys_at(&keys, 49, &c); /* held */
     assert_true(c.eye[1] == -2.0f);
-    camera_keys_at(&keys, 1000, &c);
+    cgt_camera_keys_at(&keys, 1000, &c);
     assert_true(c.eye[1] == -9.0f && c.fov == 20.0f);
-    camera_keys_free(&keys);
+    cgt_camera_keys_free(&keys);
 
-    assert_int_equal(camera_keys_read(&keys,
-                                      write_keys("\xEF\xBB\xBF"
-                                                 "0 8,0,0,0,0,0,0,0,1,30\n"),
-                                      error, sizeof error),
+    assert_int_equal(cgt_camera_keys_read(&keys,
+                                          write_keys("\xEF\xBB\xBF"
+                                                     "0 8,0,0,0,0,0,0,0,1,30\n"),
+                                          error, sizeof error),
                      0);
     assert_int_equal(keys.count, 1);
-    camera_keys_free(&keys);
-    assert_int_equal(camera_keys_read(&keys, "/dev/zero", error, sizeof error), -1); /* endless */
+    cgt_camera_keys_free(&keys);
+    assert_int_equal(cgt_camera_keys_read(&keys, "/dev/zero", error, sizeof error), -1); /* endless */
     assert_non_null(strstr(error, "more than"));
 
     static const char *const wrong[] = {"",
@@ -728,11 +728,11 @@ TEST(keys_move_the_camera)
                                         "5 8,0,0,0,0,0,0,0,1,30\n5 8,0,0,0,0,0,0,0,1,30\n",
                                         "5 8,0,0,0,0,0,0,0,1,30 ease more\n"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        assert_int_equal(camera_keys_read(&keys, write_keys(wrong[i]), error, sizeof error), -1);
+        assert_int_equal(cgt_camera_keys_read(&keys, write_keys(wrong[i]), error, sizeof error), -1);
         assert_non_null(strstr(error, path));
     }
     assert_int_equal(remove(path), 0);
-    assert_int_equal(camera_keys_read(&keys, path, error, sizeof error), -1);
+    assert_int_equal(cgt_camera_keys_read(&keys, path, error, sizeof error), -1);
 }
 
 SUITE(create_context, release_context)

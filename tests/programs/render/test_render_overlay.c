@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "picture/overlay/overlay.h"
+#include "text/overlay.h"
 
 enum { WIDTH = 320, HEIGHT = 200 };
 
@@ -38,14 +38,14 @@ static int drawn(int x0, int y0, int x1, int y1)
 TEST(coverage_blends_light)
 {
     canvas c = make_canvas(0);
-    canvas_blend(&c, 3, 4, white, 0.5f);
+    cgt_canvas_blend(&c, 3, 4, white, 0.5f);
     assert_int_equal(pixel(3, 4)[0], 188); /* half the light, in sRGB */
-    canvas_blend(&c, -1, 4, white, 1.0f);
-    canvas_blend(&c, WIDTH, 4, white, 1.0f);
-    canvas_blend(&c, 3, HEIGHT, white, 1.0f);
+    cgt_canvas_blend(&c, -1, 4, white, 1.0f);
+    cgt_canvas_blend(&c, WIDTH, 4, white, 1.0f);
+    cgt_canvas_blend(&c, 3, HEIGHT, white, 1.0f);
     assert_int_equal(drawn(0, 0, WIDTH, HEIGHT), 1);
     c = make_canvas(1); /* over nothing the colour is the line's own */
-    canvas_blend(&c, 3, 4, white, 0.5f);
+    cgt_canvas_blend(&c, 3, 4, white, 0.5f);
     assert_int_equal(pixel(3, 4)[0], 255);
     assert_int_equal(alpha[4 * WIDTH + 3], 128);
 }
@@ -60,8 +60,8 @@ TEST(linear_pixels_are_drawn_on)
         for (int i = 0; i < WIDTH * HEIGHT; i++)
             linear[i] = (cgt_linear_pixel){0.0f, 0.0f, 0.0f, 7.0f, 5, with_alpha ? 0.0f : 1.0f};
         c.pixels = linear;
-        canvas_fill(&c, 10.0f, 20.5f, 50.0f, 20.0f, grey);
-        canvas_line(&c, (const float[]){5, 5}, (const float[]){80, 90}, 3.0f, blue);
+        cgt_canvas_fill(&c, 10.0f, 20.5f, 50.0f, 20.0f, grey);
+        cgt_canvas_line(&c, (const float[]){5, 5}, (const float[]){80, 90}, 3.0f, blue);
         int partly = 0;
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
             const float a = with_alpha ? linear[i].a : 1.0f, *color = &linear[i].r;
@@ -79,7 +79,7 @@ TEST(linear_pixels_are_drawn_on)
 TEST(shapes_are_where_they_should)
 {
     canvas c = make_canvas(0);
-    canvas_fill(&c, 10.0f, 20.5f, 5.0f, 2.0f, white);
+    cgt_canvas_fill(&c, 10.0f, 20.5f, 5.0f, 2.0f, white);
     assert_int_equal(pixel(9, 21)[0], 0);
     assert_int_equal(pixel(10, 21)[0], 255);
     assert_int_equal(pixel(14, 21)[0], 255);
@@ -87,13 +87,14 @@ TEST(shapes_are_where_they_should)
     assert_int_equal(pixel(12, 20)[0], 188); /* half of a row */
     assert_int_equal(pixel(12, 22)[0], 188);
     c = make_canvas(0);
-    canvas_line(&c, (const float[]){50, 50}, (const float[]){80, 90}, 3.0f, white); /* 50 long */
+    cgt_canvas_line(&c, (const float[]){50, 50}, (const float[]){80, 90}, 3.0f, white); /* 50 long */
     assert_int_equal(pixel(65, 70)[0], 255);
     assert_int_equal(pixel(50, 50)[0], 255);
     assert_int_equal(pixel(65, 50)[0], 0);
     assert_int_equal(pixel(81, 91)[0], 0); /* beyond its end */
     assert_in_range(drawn(0, 0, WIDTH, HEIGHT), 150, 330);
-    canvas_line(&c, (const float[]){-1e6f, 10}, (const float[]){1e6f, 10}, 1.0f, white); /* cut, and no endless loop */
+    cgt_canvas_line(&c, (const float[]){-1e6f, 10}, (const float[]){1e6f, 10}, 1.0f,
+                    white); /* cut, and no endless loop */
     assert_int_equal(pixel(0, 10)[0] > 0 && pixel(WIDTH - 1, 10)[0] > 0, 1);
 }
 
@@ -108,7 +109,7 @@ TEST(ticks_are_round)
                 {2.0, 5e6, 1, 10.0, 3}, {1e-9, 1e9, 1, 1e-9, 0}, {2.0, 9.0, 1, 2.0, 0}};
     double ticks[6];
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        const uint32_t count = overlay_ticks(rows[i].min, rows[i].max, rows[i].logarithmic, ticks, 6);
+        const uint32_t count = cgt_overlay_ticks(rows[i].min, rows[i].max, rows[i].logarithmic, ticks, 6);
         if (count < 2 || (rows[i].count && count != rows[i].count))
             fail_msg("row %zu has %u ticks", i, count);
         for (uint32_t k = 0; k < count; k++)
@@ -117,26 +118,26 @@ TEST(ticks_are_round)
         if (rows[i].count)
             assert_true(fabs(ticks[0] - rows[i].first) < 1e-9 * fabs(rows[i].first) + 1e-12);
     }
-    assert_int_equal(overlay_ticks(1.0, 1.0, 0, ticks, 6), 0);
-    assert_int_equal(overlay_ticks(0.0, INFINITY, 0, ticks, 6), 0);
+    assert_int_equal(cgt_overlay_ticks(1.0, 1.0, 0, ticks, 6), 0);
+    assert_int_equal(cgt_overlay_ticks(0.0, INFINITY, 0, ticks, 6), 0);
 }
 
 TEST(times_replace_their_names)
 {
     overlay_frame f = {.number = 7, .step = -1200, .time = 0.5};
     char text[64], little[6];
-    overlay_format("t = {time} ps, {step}/{frame} {other}", &f, text, sizeof text);
+    cgt_overlay_format("t = {time} ps, {step}/{frame} {other}", &f, text, sizeof text);
     assert_string_equal(text, "t = 0.5 ps, -1200/7 {other}");
     f.time = NAN;
-    overlay_format("{time}", &f, text, sizeof text);
+    cgt_overlay_format("{time}", &f, text, sizeof text);
     assert_string_equal(text, "-1200");
-    overlay_format("{step}{step}", &f, little, sizeof little); /* cut */
+    cgt_overlay_format("{step}{step}", &f, little, sizeof little); /* cut */
     assert_string_equal(little, "-1200");
 }
 
 static overlay make_overlay(coloring *k)
 {
-    assert_int_equal(coloring_init(k, COLORING_VALUE, NULL, 0.0f, 1.0f), 0);
+    assert_int_equal(cgt_coloring_init(k, COLORING_VALUE, NULL, 0.0f, 1.0f), 0);
     return (overlay){.size = 10.0f, .color = {1.0f, 1.0f, 1.0f}, .coloring = k};
 }
 
@@ -147,14 +148,14 @@ TEST(the_bar_shows_the_map)
     const overlay_frame f = {.number = 0};
     overlay o = make_overlay(&k);
     o.bar = "";
-    overlay_draw(&o, &c, &f);
+    cgt_overlay_draw(&o, &c, &f);
     /* From a quarter of the height to three, 5.5 sizes from the right: viridis' yellow above, its violet below. */
     const uint8_t *above = pixel(WIDTH - 50, HEIGHT / 4 + 1), *below = pixel(WIDTH - 50, 3 * HEIGHT / 4 - 2);
     assert_true(above[0] > 240 && above[1] > 220 && above[2] < 60);
     assert_true(below[0] > 60 && below[0] < 75 && below[1] < 10 && below[2] > 75);
     assert_int_equal(drawn(0, 0, WIDTH - 60, HEIGHT), 0);
     assert_int_equal(drawn(0, 0, WIDTH, HEIGHT / 4 - 2), 0);
-    coloring_free(&k);
+    cgt_coloring_free(&k);
 }
 
 TEST(the_legend_has_a_line_for_each_kind)
@@ -168,7 +169,7 @@ TEST(the_legend_has_a_line_for_each_kind)
     o.legend = "";
     o.kinds = kinds;
     o.kind_count = 2;
-    overlay_draw(&o, &c, &f);
+    cgt_overlay_draw(&o, &c, &f);
     /* Without a font: swatches of 10 pixels, 14.5 apart around the middle, 9 pixels from the edge. */
     const int x = WIDTH - 9 - 13 + 5;
     assert_true(pixel(x, HEIGHT / 2 - 7)[2] == 255 && pixel(x, HEIGHT / 2 - 7)[0] == 0);
@@ -176,20 +177,20 @@ TEST(the_legend_has_a_line_for_each_kind)
     assert_int_equal(drawn(0, 0, x - 6, HEIGHT), 0);
     assert_int_equal(drawn(0, 0, WIDTH, HEIGHT / 2 - 14), 0);
     assert_in_range(drawn(x - 6, 0, WIDTH, HEIGHT), 130, 210);
-    o.font = text_open(NULL, o.size, error, sizeof error);
+    o.font = cgt_text_open(NULL, o.size, error, sizeof error);
     if (o.font) { /* names to the right of the swatches, which make room; a title above */
         c = make_canvas(0);
         o.legend = "kinds";
-        overlay_draw(&o, &c, &f);
-        const int left = (int)((float)WIDTH - 9.0f - 13.5f - text_width(o.font, "oxygen"));
+        cgt_overlay_draw(&o, &c, &f);
+        const int left = (int)((float)WIDTH - 9.0f - 13.5f - cgt_text_width(o.font, "oxygen"));
         assert_true(drawn(left + 13, HEIGHT / 2 + 2, WIDTH - 8, HEIGHT / 2 + 24) > 40);
         assert_true(drawn(left, HEIGHT / 2 - 24, left + 40, HEIGHT / 2 - 10) > 40);
         assert_int_equal(drawn(0, 0, left - 1, HEIGHT), 0);
         o.kind_count = 30; /* more than there is room for */
-        overlay_draw(&o, &c, &f);
-        text_close(o.font);
+        cgt_overlay_draw(&o, &c, &f);
+        cgt_text_close(o.font);
     }
-    coloring_free(&k);
+    cgt_coloring_free(&k);
 }
 
 TEST(axes_point_as_the_camera_sees_them)
@@ -199,44 +200,44 @@ TEST(axes_point_as_the_camera_sees_them)
     const overlay_frame f = {.right = {1, 0, 0}, .up = {0, 0, 1}, .forward = {0, 1, 0}}; /* from the front: y away */
     overlay o = make_overlay(&k);
     o.axes = 1;
-    overlay_draw(&o, &c, &f);
+    cgt_overlay_draw(&o, &c, &f);
     const int x = 33, y = HEIGHT - 33;                                  /* the origin: margin and length */
     assert_true(pixel(x + 15, y)[0] > 150 && pixel(x + 15, y)[2] < 60); /* x is red, to the right */
     assert_true(pixel(x, y - 15)[2] > 150 && pixel(x, y - 15)[0] < 60); /* z is blue, up */
     assert_int_equal(drawn(x - 20, y - 2, x - 4, y + 2), 0);
-    coloring_free(&k);
+    cgt_coloring_free(&k);
 }
 
 TEST(texts_are_drawn_where_there_is_a_font)
 {
     static coloring k;
     char error[256] = "";
-    assert_null(text_open("/no/such/font.ttf", 12.0f, error, sizeof error));
+    assert_null(cgt_text_open("/no/such/font.ttf", 12.0f, error, sizeof error));
     assert_true(*error);
     overlay o = make_overlay(&k);
-    o.font = text_open(NULL, o.size, error, sizeof error);
+    o.font = cgt_text_open(NULL, o.size, error, sizeof error);
     if (!o.font) {
         print_message("%s\n", error);
-        coloring_free(&k);
+        cgt_coloring_free(&k);
         skip();
     }
     const canvas c = make_canvas(0);
     const overlay_frame f = {.time = 2.5};
     o.title = "A title";
     o.time = "t = {time}";
-    overlay_draw(&o, &c, &f);
-    const float width = text_width(o.font, o.title);
+    cgt_overlay_draw(&o, &c, &f);
+    const float width = cgt_text_width(o.font, o.title);
     assert_true(width > 20.0f && width < 60.0f);
     assert_true(drawn((int)(0.5f * (WIDTH - width)), 5, (int)(0.5f * (WIDTH + width)), 22) > 40);
     assert_int_equal(drawn(0, 0, (int)(0.5f * (WIDTH - width)) - 2, 30), 0);
     assert_true(drawn(5, HEIGHT - 22, 60, HEIGHT - 4) > 30);
     assert_int_equal(drawn(80, HEIGHT - 30, WIDTH, HEIGHT), 0);
     /* Accents are one character; bytes that are no UTF-8 are drawn as unknown ones, and do no harm. */
-    assert_true(fabsf(text_width(o.font, "\xc3\xa9") - text_width(o.font, "e")) < 2.0f);
-    assert_true(text_width(o.font, "\xff\xc3") > 0.0f);
-    text_draw(o.font, &c, 1e4f, -1e4f, "outside \xe2\x82", white);
-    text_close(o.font);
-    coloring_free(&k);
+    assert_true(fabsf(cgt_text_width(o.font, "\xc3\xa9") - cgt_text_width(o.font, "e")) < 2.0f);
+    assert_true(cgt_text_width(o.font, "\xff\xc3") > 0.0f);
+    cgt_text_draw(o.font, &c, 1e4f, -1e4f, "outside \xe2\x82", white);
+    cgt_text_close(o.font);
+    cgt_coloring_free(&k);
 }
 
 SUITE(NULL, NULL)

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "picture/figures/figures.h"
+#include "scene/shapes.h"
 
 enum { COUNT = 300 };
 
@@ -47,20 +47,20 @@ TEST(rules_choose_and_size)
     particles p = {0};
     const cgt_trajectory_frame frame = make_frame(7);
     particle_rules rules = no_rules();
-    assert_true(particle_rules_are_empty(&rules));
-    expression *show = expression_parse("type != 2 && x < 5", error, sizeof error);
-    expression *radius = expression_parse("y - 1", error, sizeof error);
-    assert_int_equal(expression_bind(show, &frame, NULL, error, sizeof error), 0);
-    expression *unknown = expression_parse("sqrt(x - 5)", error, sizeof error);
-    assert_int_equal(expression_bind(radius, &frame, NULL, error, sizeof error), 0);
-    assert_int_equal(expression_bind(unknown, &frame, NULL, error, sizeof error), 0);
+    assert_true(cgt_particle_rules_are_empty(&rules));
+    expression *show = cgt_expression_parse("type != 2 && x < 5", error, sizeof error);
+    expression *radius = cgt_expression_parse("y - 1", error, sizeof error);
+    assert_int_equal(cgt_expression_bind(show, &frame, NULL, error, sizeof error), 0);
+    expression *unknown = cgt_expression_parse("sqrt(x - 5)", error, sizeof error);
+    assert_int_equal(cgt_expression_bind(radius, &frame, NULL, error, sizeof error), 0);
+    assert_int_equal(cgt_expression_bind(unknown, &frame, NULL, error, sizeof error), 0);
     rules.show = show;
     rules.radius_count = 2;
     rules.radii[0] = (particle_kind){.kind = 3, .value = {0.75f}};
     rules.radii[1] = (particle_kind){.kind = 3, .value = {0.25f}}; /* the last one counts */
     rules.radius_scale = 2.0f;
-    assert_false(particle_rules_are_empty(&rules));
-    assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
+    assert_false(cgt_particle_rules_are_empty(&rules));
+    assert_int_equal(cgt_particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
     uint32_t k = 0;
     for (uint32_t i = 0; i < COUNT; i++) {
         if (type[i] == 2 || xyzr[4 * i] >= 5.0f)
@@ -74,21 +74,21 @@ TEST(rules_choose_and_size)
     assert_int_equal(p.count, k);
     rules.show = NULL;
     rules.radius = radius; /* negative ones are left out */
-    assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
+    assert_int_equal(cgt_particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
     assert_true(p.count > 200 && p.count < COUNT);
     for (k = 0; k < p.count; k++)
         assert_true(fabsf(p.xyzr[4 * k + 3] - 2.0f * (p.xyzr[4 * k + 1] - 1.0f)) < 1e-5f);
     rules = no_rules();
     rules.show = unknown; /* where nothing is known nothing is shown */
-    assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
+    assert_int_equal(cgt_particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
     k = 0;
     for (uint32_t i = 0; i < COUNT; i++)
         k += xyzr[4 * i] > 5.0f;
     assert_int_equal(p.count, k);
-    particles_free(&p);
-    expression_free(show);
-    expression_free(radius);
-    expression_free(unknown);
+    cgt_particles_free(&p);
+    cgt_expression_free(show);
+    cgt_expression_free(radius);
+    cgt_expression_free(unknown);
 }
 
 TEST(images_follow_the_boxes_edges)
@@ -99,7 +99,7 @@ TEST(images_follow_the_boxes_edges)
     particle_rules rules = no_rules();
     rules.images[0] = 2;
     rules.images[2] = 3;
-    assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
+    assert_int_equal(cgt_particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
     assert_int_equal(p.count, 6 * COUNT);
     const uint32_t copy = 5; /* 1 along a, 2 along c */
     for (uint32_t i = 0; i < COUNT; i++) {
@@ -109,9 +109,9 @@ TEST(images_follow_the_boxes_edges)
         assert_int_equal(p.source[copy * COUNT + i], i);
     }
     memset(frame.box_edge, 0, sizeof frame.box_edge);
-    assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), -1);
+    assert_int_equal(cgt_particles_select(&p, &rules, &frame, entry, error, sizeof error), -1);
     assert_non_null(strstr(error, "no box"));
-    particles_free(&p);
+    cgt_particles_free(&p);
 }
 
 /* ---- Sticks ------------------------------------------------------------------------------------------------- */
@@ -124,27 +124,27 @@ static const float *vertex(const sticks *s, uint32_t triangle, int k)
 TEST(sticks_have_two_ends)
 {
     sticks s = {0};
-    sticks_clear(&s, 16);
+    cgt_sticks_clear(&s, 16);
     const float a[3] = {1, 2, 3}, b[3] = {4, -2, 5};
     for (int i = 0; i < 300; i++)
-        sticks_add(&s, i % 2 ? b : a, i % 2 ? a : b, 0.5f, 9, 7);
-    sticks_add(&s, a, a, 0.5f, 9, 9); /* nothing */
-    sticks_add(&s, a, (const float[]){NAN, 0, 0}, 0.5f, 9, 9);
+        cgt_sticks_add(&s, i % 2 ? b : a, i % 2 ? a : b, 0.5f, 9, 7);
+    cgt_sticks_add(&s, a, a, 0.5f, 9, 9); /* nothing */
+    cgt_sticks_add(&s, a, (const float[]){NAN, 0, 0}, 0.5f, 9, 9);
     assert_int_equal(s.count, 300);
     for (uint32_t i = 0; i < s.count; i++) {
         assert_memory_equal(s.end + 6 * i, i % 2 ? b : a, sizeof a);
         assert_memory_equal(s.end + 6 * i + 3, i % 2 ? a : b, sizeof a);
         assert_true(s.radius[i] == 0.5f && s.entry[2 * i] == 9 && s.entry[2 * i + 1] == 7);
     }
-    sticks_free(&s);
+    cgt_sticks_free(&s);
 }
 
 TEST(cylinders_are_round)
 {
     sticks s = {0};
-    sticks_clear(&s, 16);
+    cgt_sticks_clear(&s, 16);
     const float a[3] = {1, 2, 3}, b[3] = {4, -2, 5};
-    sticks_add_cylinder(&s, a, b, 0.5f, 9);
+    cgt_sticks_add_cylinder(&s, a, b, 0.5f, 9);
     assert_int_equal(s.triangles, 32);
     for (uint32_t i = 0; i < s.vertices; i++) {
         /* The distance from the axis, by the cross product, is the radius but for the area's correction. */
@@ -157,8 +157,8 @@ TEST(cylinders_are_round)
         assert_true(n[0] * v[0] + n[1] * v[1] + n[2] * v[2] > 0.0f);
     }
     /* Outward: each triangle's own normal agrees with its vertices'. */
-    sticks_add_cone(&s, a, b, 0.5f, 9);
-    sticks_add_ball(&s, a, 0.5f, 9);
+    cgt_sticks_add_cone(&s, a, b, 0.5f, 9);
+    cgt_sticks_add_ball(&s, a, 0.5f, 9);
     for (uint32_t i = 0; i < s.triangles; i++) {
         const float *p = vertex(&s, i, 0), *q = vertex(&s, i, 1), *r = vertex(&s, i, 2);
         const float *n = s.normal + 3 * (size_t)s.index[3 * i];
@@ -169,10 +169,10 @@ TEST(cylinders_are_round)
         assert_int_equal(s.mesh_entry[i], 9);
     }
     const uint32_t before = s.triangles;
-    sticks_add_cylinder(&s, a, a, 0.5f, 9); /* nothing */
-    sticks_add_cylinder(&s, a, (const float[]){NAN, 0, 0}, 0.5f, 9);
+    cgt_sticks_add_cylinder(&s, a, a, 0.5f, 9); /* nothing */
+    cgt_sticks_add_cylinder(&s, a, (const float[]){NAN, 0, 0}, 0.5f, 9);
     assert_int_equal(s.triangles, before);
-    sticks_free(&s);
+    cgt_sticks_free(&s);
 }
 
 TEST(the_box_has_its_corners)
@@ -182,8 +182,8 @@ TEST(the_box_has_its_corners)
     float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     cgt_trajectory_frame frame = make_frame(1);
     frame.box_origin[1] = -3.0;
-    sticks_clear(&s, 8);
-    assert_int_equal(figures_add_box(&s, &frame, images, 0.1f, 3), 0);
+    cgt_sticks_clear(&s, 8);
+    assert_int_equal(cgt_shapes_add_box(&s, &frame, images, 0.1f, 3), 0);
     for (uint32_t i = 0; i < s.vertices; i++)
         for (int c = 0; c < 3; c++) {
             low[c] = fminf(low[c], s.position[3 * i + c]);
@@ -193,8 +193,8 @@ TEST(the_box_has_its_corners)
     for (int c = 0; c < 3; c++)
         assert_true(fabsf(low[c] - expected_low[c]) < 0.12f && fabsf(high[c] - expected_high[c]) < 0.12f);
     memset(frame.box_edge, 0, sizeof frame.box_edge);
-    assert_int_equal(figures_add_box(&s, &frame, images, 0.1f, 3), -1);
-    sticks_free(&s);
+    assert_int_equal(cgt_shapes_add_box(&s, &frame, images, 0.1f, 3), -1);
+    cgt_sticks_free(&s);
 }
 
 /* ---- Bonds and arrows --------------------------------------------------------------------------------------- */
@@ -210,7 +210,7 @@ TEST(near_bonds_are_those_of_all_pairs)
         xyzr[4 * 17] = NAN;
         const particle_rules rules = no_rules();
         const bond_rules bonds = {.distance = 0.4f * (float)seed, .radius = 0.1f, .entry = 5};
-        assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
+        assert_int_equal(cgt_particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
         for (uint32_t i = 0; i < COUNT; i++)
             for (uint32_t k = i + 1; k < COUNT; k++) {
                 float square = 0.0f;
@@ -220,12 +220,12 @@ TEST(near_bonds_are_those_of_all_pairs)
                 }
                 pairs += square <= bonds.distance * bonds.distance;
             }
-        sticks_clear(&s, 3);
-        assert_int_equal(figures_add_bonds(&s, &bonds, &frame, &p, error, sizeof error), 0);
+        cgt_sticks_clear(&s, 3);
+        assert_int_equal(cgt_shapes_add_bonds(&s, &bonds, &frame, &p, error, sizeof error), 0);
         if (s.count != pairs || !pairs)
             fail_msg("seed %u: %u sticks for %u pairs", seed, s.count, pairs);
-        sticks_free(&s);
-        particles_free(&p);
+        cgt_sticks_free(&s);
+        cgt_particles_free(&p);
     }
 }
 
@@ -246,18 +246,18 @@ TEST(bonds_of_the_file_end_at_the_outer_boundary)
     for (int c = 0; c < 3; c++)
         frame.periodic[c] = 1;
     bond_rules bonds = {.radius = 0.1f, .entry = -1, .images = {1, 2, 1}};
-    assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
-    sticks_clear(&s, 3);
-    assert_int_equal(figures_add_bonds(&s, &bonds, &frame, &p, error, sizeof error), 0);
+    assert_int_equal(cgt_particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
+    cgt_sticks_clear(&s, 3);
+    assert_int_equal(cgt_shapes_add_bonds(&s, &bonds, &frame, &p, error, sizeof error), 0);
     assert_int_equal(s.count, 0); /* a frame may have none */
     frame.bonds = 2;
     frame.bond = bond;
-    assert_int_equal(figures_add_bonds(&s, &bonds, &frame, &p, error, sizeof error), 0);
+    assert_int_equal(cgt_shapes_add_bonds(&s, &bonds, &frame, &p, error, sizeof error), 0);
     assert_int_equal(s.count, 2); /* two images of one bond of two halves */
     assert_int_equal(s.entry[0], 0);
     assert_int_equal(s.entry[1], 1);
-    sticks_free(&s);
-    particles_free(&p);
+    cgt_sticks_free(&s);
+    cgt_particles_free(&p);
 }
 
 /* The bonds between spheres 0 and 1, and their longest share of d along each axis. */
@@ -270,16 +270,16 @@ static uint32_t bonds_of_two(const cgt_trajectory_frame *frame, const uint32_t i
     bond_rules bonds = {.radius = 0.001f, .entry = 5};
     memcpy(rules.images, images, sizeof rules.images);
     memcpy(bonds.images, images, sizeof bonds.images);
-    assert_int_equal(particles_select(&p, &rules, frame, entry, error, sizeof error), 0);
-    sticks_clear(&s, 3);
-    assert_int_equal(figures_add_bonds(&s, &bonds, frame, &p, error, sizeof error), 0);
+    assert_int_equal(cgt_particles_select(&p, &rules, frame, entry, error, sizeof error), 0);
+    cgt_sticks_clear(&s, 3);
+    assert_int_equal(cgt_shapes_add_bonds(&s, &bonds, frame, &p, error, sizeof error), 0);
     memset(longest, 0, 3 * sizeof *longest);
     for (uint32_t i = 0; i < s.count; i++)
         for (int c = 0; c < 3; c++)
             longest[c] = fmaxf(longest[c], fabsf(s.end[6 * i + c] - s.end[6 * i + 3 + c]));
     const uint32_t found = s.count;
-    sticks_free(&s);
-    particles_free(&p);
+    cgt_sticks_free(&s);
+    cgt_particles_free(&p);
     return found;
 }
 
@@ -347,15 +347,15 @@ TEST(arrows_point_along_their_vectors)
     expression *e[3];
     const cgt_trajectory_frame frame = make_frame(3);
     const particle_rules rules = no_rules();
-    assert_int_equal(particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
+    assert_int_equal(cgt_particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
     for (int i = 0; i < 3; i++) {
-        e[i] = expression_parse(formulas[i], error, sizeof error);
-        assert_int_equal(expression_bind(e[i], &frame, NULL, error, sizeof error), 0);
+        e[i] = cgt_expression_parse(formulas[i], error, sizeof error);
+        assert_int_equal(cgt_expression_bind(e[i], &frame, NULL, error, sizeof error), 0);
     }
     const expression *const vector[3] = {e[0], e[1], e[2]};
     p.count = 5;
-    sticks_clear(&s, 6);
-    figures_add_arrows(&s, vector, 2.0f, 0.05f, &p, -1);
+    cgt_sticks_clear(&s, 6);
+    cgt_shapes_add_arrows(&s, vector, 2.0f, 0.05f, &p, -1);
     assert_int_equal(s.triangles, 5 * 24);
     assert_int_equal(s.count, 0);
     /* The last arrow's tip is at its sphere's centre plus (2, 0, 6). */
@@ -368,9 +368,9 @@ TEST(arrows_point_along_their_vectors)
     assert_true(nearest < 1e-4f);
     assert_int_equal(s.mesh_entry[s.triangles - 1], 4);
     for (int i = 0; i < 3; i++)
-        expression_free(e[i]);
-    sticks_free(&s);
-    particles_free(&p);
+        cgt_expression_free(e[i]);
+    cgt_sticks_free(&s);
+    cgt_particles_free(&p);
 }
 
 /* ---- Trails ------------------------------------------------------------------------------------------------- */
@@ -420,19 +420,19 @@ TEST(trails_follow_ids_and_break_at_the_boundary)
     particles p = {0};
     sticks s = {0};
     for (int boxless = 0; boxless < 2; boxless++) {
-        trail_history *history = trail_history_create(6);
+        trail_history *history = cgt_trail_history_create(6);
         cgt_trajectory_frame f = {0};
         assert_non_null(history);
         for (uint32_t k = 0; k < 8; k++) { /* frame 0 is forgotten, 1 is the oldest */
             f = make_moved(k, ids, boxless ? no_edge : edge);
-            assert_int_equal(trail_history_add(history, &f), 0);
+            assert_int_equal(cgt_trail_history_add(history, &f), 0);
         }
         particle_rules rules = no_rules();
         rules.images[1] = boxless ? 1 : 2;
-        assert_int_equal(particles_select(&p, &rules, &f, entry, error, sizeof error), 0);
-        sticks_clear(&s, 20);
+        assert_int_equal(cgt_particles_select(&p, &rules, &f, entry, error, sizeof error), 0);
+        cgt_sticks_clear(&s, 20);
         const trail_rules trails = {history, 0.05f, -1};
-        assert_int_equal(figures_add_trails(&s, &trails, &f, &p, error, sizeof error), 0);
+        assert_int_equal(cgt_shapes_add_trails(&s, &trails, &f, &p, error, sizeof error), 0);
         const uint32_t images = boxless ? 1 : 2;
         /* Sphere 0 jumps between frames 3 and 4, sphere 1 between 2 and 3: of six steps five have a piece. */
         for (uint16_t id = 0; id < 2; id++) {
@@ -442,10 +442,10 @@ TEST(trails_follow_ids_and_break_at_the_boundary)
         assert_int_equal(trail_of(&s, 2, &longest), 0);          /* hidden in its sphere */
         assert_int_equal(trail_of(&s, 3, &longest), images * 5); /* five steps since frame 2 */
         assert_true(longest < 1.2f);
-        trail_history_release(history);
+        cgt_trail_history_release(history);
     }
-    sticks_free(&s);
-    particles_free(&p);
+    cgt_sticks_free(&s);
+    cgt_particles_free(&p);
 }
 
 /* Steps that do not increase begin another run; a place that is no number ends a trail; colours and radii are the
@@ -458,39 +458,39 @@ TEST(trails_end_where_nothing_is_known)
     float place[10][3], longest;
     particles p = {0};
     sticks s = {0};
-    trail_history *history = trail_history_create(9);
+    trail_history *history = cgt_trail_history_create(9);
     cgt_trajectory_frame f = {0};
     for (uint32_t k = 0; k < 5; k++) {
         f = make_moved(k, ids, edge);
         if (k == 2)
             xyzr[4 * 1 + 1] = NAN; /* of id (1 + 2) % 4 */
-        assert_int_equal(trail_history_add(history, &f), 0);
+        assert_int_equal(cgt_trail_history_add(history, &f), 0);
     }
     uint32_t sphere = 0;
     while (ids[sphere] != 103)
         sphere++;
-    assert_int_equal(trail_history_places(history, sphere, place), 2);
+    assert_int_equal(cgt_trail_history_places(history, sphere, place), 2);
     assert_true(place[0][2] == 4.0f && place[1][2] == 3.0f);
     const particle_rules rules = no_rules();
     const trail_rules trails = {history, 0.0f, 44};
-    assert_int_equal(particles_select(&p, &rules, &f, entry, error, sizeof error), 0);
-    sticks_clear(&s, 20);
-    assert_int_equal(figures_add_trails(&s, &trails, &f, &p, error, sizeof error), 0);
+    assert_int_equal(cgt_particles_select(&p, &rules, &f, entry, error, sizeof error), 0);
+    cgt_sticks_clear(&s, 20);
+    assert_int_equal(cgt_shapes_add_trails(&s, &trails, &f, &p, error, sizeof error), 0);
     assert_int_equal(trail_of(&s, 44, &longest), s.count);
     float widest = 0.0f;
     for (uint32_t i = 0; i < s.count; i++)
         widest = fmaxf(widest, s.radius[i]);
     assert_true(widest < 0.04f && widest > 0.94f * 0.04f); /* near the sphere a fifth of 0.2 */
     f = make_moved(2, ids, edge);
-    assert_int_equal(trail_history_add(history, &f), 0);
-    assert_int_equal(trail_history_places(history, 0, place), 1);
-    trail_history_restart(history);
+    assert_int_equal(cgt_trail_history_add(history, &f), 0);
+    assert_int_equal(cgt_trail_history_places(history, 0, place), 1);
+    cgt_trail_history_restart(history);
     f = make_moved(3, ids, edge);
-    assert_int_equal(trail_history_add(history, &f), 0);
-    assert_int_equal(trail_history_places(history, 0, place), 1);
-    trail_history_release(history);
-    sticks_free(&s);
-    particles_free(&p);
+    assert_int_equal(cgt_trail_history_add(history, &f), 0);
+    assert_int_equal(cgt_trail_history_places(history, 0, place), 1);
+    cgt_trail_history_release(history);
+    cgt_sticks_free(&s);
+    cgt_particles_free(&p);
 }
 
 SUITE(NULL, NULL)

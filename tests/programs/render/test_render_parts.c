@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "picture/color/coloring.h"
+#include "color/coloring.h"
 #include "picture/overlay/contact_sheet.h"
 #include "common/out_path.h"
 #include "common/program.h"
@@ -169,30 +169,30 @@ TEST(values_find_their_entries)
     const uint32_t ids[5] = {10, 20, 4000000000u, 15, 0}, types[5] = {1, 2, 9, 0, 8};
     const cgt_trajectory_frame frame = {.count = 5, .xyzr = xyzr, .id = ids, .type = types};
     coloring c;
-    assert_int_equal(coloring_init(&c, COLORING_SPEED, NULL, 1.0f, 3.0f), 0);
-    assert_int_equal(coloring_apply(&c, &frame, speeds), 0);
+    assert_int_equal(cgt_coloring_init(&c, COLORING_SPEED, NULL, 1.0f, 3.0f), 0);
+    assert_int_equal(cgt_coloring_apply(&c, &frame, speeds), 0);
     assert_int_equal(c.index[0], 0);
     assert_int_equal(c.index[1], COLORING_STEPS - 1);
     assert_near(c.index[2], (COLORING_STEPS - 1) / 2.0, 0.51);
     assert_int_equal(c.index[3], COLORING_UNKNOWN);
     assert_int_equal(c.index[4], COLORING_STEPS - 1);
-    coloring_free(&c);
-    assert_int_equal(coloring_init(&c, COLORING_ID, NULL, 10.0f, 20.0f), 0);
-    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    cgt_coloring_free(&c);
+    assert_int_equal(cgt_coloring_init(&c, COLORING_ID, NULL, 10.0f, 20.0f), 0);
+    assert_int_equal(cgt_coloring_apply(&c, &frame, NULL), 0);
     assert_int_equal(c.index[0], 0);
     assert_int_equal(c.index[2], COLORING_STEPS - 1);
     assert_int_equal(c.index[4], 0);
-    coloring_free(&c);
-    assert_int_equal(coloring_init(&c, COLORING_ID, NULL, 7.0f, 7.0f), 0); /* one value only: no division by zero */
-    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    cgt_coloring_free(&c);
+    assert_int_equal(cgt_coloring_init(&c, COLORING_ID, NULL, 7.0f, 7.0f), 0); /* one value only: no division by zero */
+    assert_int_equal(cgt_coloring_apply(&c, &frame, NULL), 0);
     assert_int_equal(c.index[1], 0);
-    coloring_free(&c);
-    assert_int_equal(coloring_init(&c, COLORING_TYPE, NULL, 0.0f, 0.0f), 0);
-    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    cgt_coloring_free(&c);
+    assert_int_equal(cgt_coloring_init(&c, COLORING_TYPE, NULL, 0.0f, 0.0f), 0);
+    assert_int_equal(cgt_coloring_apply(&c, &frame, NULL), 0);
     assert_memory_equal(c.palette[c.index[0]], c.palette[c.index[2]], sizeof c.palette[0]); /* 1 and 9 */
     assert_memory_equal(c.palette[c.index[3]], c.palette[c.index[4]], sizeof c.palette[0]); /* 0 and 8 */
     assert_memory_not_equal(c.palette[c.index[0]], c.palette[c.index[1]], sizeof c.palette[0]);
-    coloring_free(&c);
+    cgt_coloring_free(&c);
 }
 
 /* Height is that of a sphere's centre, or of each vertex; ids and types are the triangles', of which there are two. */
@@ -209,33 +209,33 @@ TEST(triangles_find_their_entries)
                                         .position = position,
                                         .type = types};
     coloring c;
-    assert_int_equal(coloring_init(&c, COLORING_HEIGHT, NULL, -1.0f, 3.0f), 0);
+    assert_int_equal(cgt_coloring_init(&c, COLORING_HEIGHT, NULL, -1.0f, 3.0f), 0);
     c.axis = 1;
-    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    assert_int_equal(cgt_coloring_apply(&c, &frame, NULL), 0);
     assert_true(c.per_vertex);
     assert_int_equal(c.index[0], 0);
     assert_near(c.index[1], (COLORING_STEPS - 1) / 4.0, 0.51);
     assert_int_equal(c.index[2], COLORING_STEPS - 1);
     assert_int_equal(c.index[3], COLORING_UNKNOWN);
-    assert_int_equal(coloring_apply(&c, &spheres, NULL), 0);
+    assert_int_equal(cgt_coloring_apply(&c, &spheres, NULL), 0);
     assert_false(c.per_vertex);
     assert_near(c.index[0], (COLORING_STEPS - 1) / 4.0, 0.51);
     assert_int_equal(c.index[1], COLORING_STEPS - 1);
-    coloring_free(&c);
-    assert_int_equal(coloring_init(&c, COLORING_SPEED, NULL, 0.0f, 3.0f), 0);
-    assert_int_equal(coloring_apply(&c, &frame, speeds), 0);
+    cgt_coloring_free(&c);
+    assert_int_equal(cgt_coloring_init(&c, COLORING_SPEED, NULL, 0.0f, 3.0f), 0);
+    assert_int_equal(cgt_coloring_apply(&c, &frame, speeds), 0);
     assert_true(c.per_vertex && c.index[2] == COLORING_STEPS - 1 && c.index[3] == COLORING_UNKNOWN);
-    coloring_free(&c);
-    assert_int_equal(coloring_init(&c, COLORING_TYPE, NULL, 0.0f, 0.0f), 0);
-    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    cgt_coloring_free(&c);
+    assert_int_equal(cgt_coloring_init(&c, COLORING_TYPE, NULL, 0.0f, 0.0f), 0);
+    assert_int_equal(cgt_coloring_apply(&c, &frame, NULL), 0);
     assert_true(!c.per_vertex && c.index[0] == 0 && c.index[1] == 1);
-    coloring_free(&c);
-    assert_int_equal(coloring_init_plain(&c, (const float[]){0.5f, 1.0f, 0.0f}), 0);
-    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    cgt_coloring_free(&c);
+    assert_int_equal(cgt_coloring_init_plain(&c, (const float[]){0.5f, 1.0f, 0.0f}), 0);
+    assert_int_equal(cgt_coloring_apply(&c, &frame, NULL), 0);
     assert_true(!c.per_vertex && c.index[0] == 0 && c.index[1] == 0);
     assert_near(c.palette[0][0], 0.21404114, 1e-6);
     assert_true(c.palette[0][1] == 1.0f && c.palette[0][2] == 0.0f);
-    coloring_free(&c);
+    cgt_coloring_free(&c);
 }
 
 /* ---- Names -------------------------------------------------------------------------------------------------- */

@@ -1,0 +1,26 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A frame with arrays of its own, so that the next one can be read while this one is drawn. */
+#ifndef FRAME_COPY_H
+#define FRAME_COPY_H
+
+#include <stddef.h>
+
+#include <cgt/trajectory.h>
+
+typedef struct frame_copy {
+    cgt_trajectory_frame frame; /* its arrays are those below; NULL where they were not copied */
+    void *places;               /* xyzr or position */
+    void *normals;              /* vertex_normal */
+    size_t place_bytes, normal_bytes;
+} frame_copy;
+
+/* Copies what drawing takes: spheres, or vertices and their normals. Other arrays of the copy are NULL, but for the
+ * triangles' indices, which are those of the trajectory, since all its frames share them. Arrays grow and are used
+ * again; a copy begins as all zero. Returns 0, or -1 where there is no memory. */
+int cgt_frame_copy_set(frame_copy *copy, const cgt_trajectory_frame *frame);
+
+void cgt_frame_copy_free(frame_copy *copy);
+
+#endif

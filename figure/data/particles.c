@@ -1,0 +1,144 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The spheres of a frame that are drawn; see particles.h. */
+#include "data/particles.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BLOCK = 256 };
+
+int cgt_particle_rules_are_empty(const particle_rules *r)
+{
+    return !r->show && !r->radius && r->radius_scale == 1.0f && !r->radius_count &&
+           r->images[0] * r->images[1] * r->images[2] == 1;
+}
+
+static int reserve(particles *p, uint64_t count, char *error, size_t error_size)
+{
+    if (count > (uint64_t)1 << 31) {
+        snprintf(error, error_size, "the periodic images have %llu spheres: at most 2^31", (unsigned long long)count);
+        return -1;
+    }
+    if (count <= p->capacity && p->xyzr)
+        return 0;
+    cgt_particles_free(p);
+    const size_t n = count ? (size_t)count : 1;
+    p->xyzr = malloc(n * 4 * sizeof *p->xyzr);
+    p->index = malloc(n * sizeof *p->index);
+    p->source = malloc(n * sizeof *p->source);
+    if (p->xyzr && p->index && p->source) {
+        p->capacity = n;
+        return 0;
+    }
+    cgt_particles_free(p);
+    snprintf(error, error_size, "out of memory for %llu spheres", (unsigned long long)count);
+    return -1;
+}
+
+void cgt_particles_free(particles *p)
+{
+    free(p->xyzr);
+    free(p->index);
+    free(p->source);
+    memset(p, 0, sizeof *p);
+}
+
+/* The radius of a sphere by the rules; the last of several that fit counts. */
+static float radius_of(const particle_rules *r, const cgt_trajectory_frame *f, uint32_t i)
+{
+    float radius = f->xyzr[4 * (size_t)i + 3];
+    for (uint32_t k = 0; k < r->radius_count; k++) {
+        const particle_kind *kind = &r->radii[k];
+        const int fits =
+            kind->is_element ? f->element && f->element[i] == kind->kind : f->type && f->type[i] == kind->kind;
+        radius = fits ? kind->value[0] : radius;
+    }
+    return radius;
+}
+
+void cgt_particle_radii(const particle_rules *r, const cgt_trajectory_frame *f, uint32_t first, uint32_t count,
+                        float *radius)
+{
+    double values[BLOCK];
+    for (uint32_t k = 0; k < count; k++) {
+        if (r->radius && k % BLOCK == 0)
+            cgt_expression_values(r->radius, first + k, count - k < BLOCK ? count - k : BLOCK, values);
+        radius[k] = r->radius_scale * (r->radius ? (float)values[k % BLOCK] : radius_of(r, f, first + k));
+    }
+}
+
+/* The spheres that are shown, without images. */
+static void select_block(particles *p, const particle_rules *r, const cgt_trajectory_frame *f, const uint16_t *index,
+                         uint32_t first, uint32_t count)
+{
+    double show[BLOCK];
+    float radius[BLOCK];
+    if (r->show)
+        cgt_expression_values(r->show, first, count, show);
+    cgt_particle_radii(r, f, first, count, radius);
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t i = first + k;
+        float *to = p->xyzr + 4 * (size_t)p->count;
+        if (r->show && (isnan(show[k]) || show[k] == 0.0))
+            continue;
+        if (r->radius && !(radius[k] >= 0.0f))
+            continue;
+        memcpy(to, f->xyzr + 4 * (size_t)i, 3 * sizeof *to);
+        to[3] = radius[k];
+        p->index[p->count] = index[i];
+        p->source[p->count++] = i;
+    }
+}
+
+/* Copies the spheres so far, moved along the box's edges. */
+static void add_images(particles *p, const uint32_t images[3], const cgt_trajectory_frame *f)
+{
+    const uint32_t originals = p->count;
+    for (uint32_t copy = 1; copy < images[0] * images[1] * images[2]; copy++) {
+        const uint32_t along_a = copy % images[0], along_b = copy / images[0] % images[1],
+                       along_c = copy / images[0] / images[1];
+        const double along[3] = {along_a, along_b, along_c};
+        double move[3];
+        for (int c = 0; c < 3; c++)
+            move[c] = along[0] * f->box_edge[0][c] + along[1] * f->box_edge[1][c] + along[2] * f->box_edge[2][c];
+        for (uint32_t i = 0; i < originals; i++) {
+            const float *from = p->xyzr + 4 * (size_t)i;
+            float *to = p->xyzr + 4 * (size_t)p->count;
+            for (int c = 0; c < 3; c++)
+                to[c] = (float)((double)from[c] + move[c]);
+            to[3] = from[3];
+            p->index[p->count] = p->index[i];
+            p->source[p->count++] = p->source[i];
+        }
+    }
+}
+
+static int has_box(const cgt_trajectory_frame *f)
+{
+    int has = 0;
+    for (int i = 0; i < 3; i++)
+        for (int c = 0; c < 3; c++)
+            has |= f->box_edge[i][c] != 0.0;
+    return has;
+}
+
+int cgt_particles_select(particles *p, const particle_rules *r, const cgt_trajectory_frame *f, const uint16_t *index,
+                         char *error, size_t error_size)
+{
+    const uint32_t copies = r->images[0] * r->images[1] * r->images[2];
+    if (copies > 1 && !has_box(f)) {
+        snprintf(error, error_size, "--images: frame %llu has no box", (unsigned long long)f->number);
+        return -1;
+    }
+    if (reserve(p, (uint64_t)f->count * copies, error, error_size))
+        return -1;
+    p->count = 0;
+    for (uint32_t first = 0; first < f->count; first += BLOCK)
+        select_block(p, r, f, index, first, f->count - first < BLOCK ? f->count - first : BLOCK);
+    add_images(p, r->images, f);
+    return 0;
+}

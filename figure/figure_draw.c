@@ -1,0 +1,211 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Pictures of a figure; see figure_state.h. cgt/picture.h makes them from what is chosen here. */
+#include "figure_state.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "data/element_symbols.h"
+
+static void set_first_light(const cgt_figure *figure, cgt_picture_light *light)
+{
+    const picture_options *o = &figure->options.picture;
+    *light = (cgt_picture_light){.light = {.kind = CGT_LIGHT_DIRECTIONAL}, .shadows = o->shadows > 0.0f};
+    light->size = o->light_size;
+    for (int c = 0; c < 3; c++) {
+        light->light.position[c] = figure->light[c];
+        light->color[c] = o->key;
+    }
+}
+
+static void set_lamp(const cgt_figure *figure, const picture_lamp *lamp, cgt_picture_light *light)
+{
+    const picture_options *const o = &figure->options.picture;
+    *light = (cgt_picture_light){.light = {.kind = lamp->kind}, .shadows = o->shadows > 0.0f, .size = o->light_size};
+    for (int c = 0; c < 3; c++) {
+        light->color[c] = lamp->strength * lamp->color[c];
+        light->light.position[c] =
+            lamp->kind == CGT_LIGHT_DIRECTIONAL ? lamp->place[c] : (float)(lamp->at[c] - figure->origin[c]);
+    }
+}
+
+cgt_picture_options cgt_figure_get_settings(const cgt_figure *figure)
+{
+    const picture_options *o = &figure->options.picture;
+    cgt_picture_options s = {
+        .width = figure->options.width, .height = figure->options.height, .antialias = figure->options.samples};
+    const int is_full =
+        cgt_picture_options_need_drawing(o) || cgt_figure_scene_has_figures(figure) || figure->options.floor.is_set;
+    s.shading = figure->options.bounce.is_set ? CGT_SHADING_BOUNCES : is_full ? CGT_SHADING_FULL : CGT_SHADING_PLAIN;
+    s.lighting.ambient = (uint32_t)o->ambient;
+    s.lighting.ambient_radius =
+        o->ambient_radius < 0.0f ? cgt_style_ambient_radius(&figure->path.start) : o->ambient_radius;
+    s.lighting.light_samples = (uint32_t)o->light_samples;
+    set_first_light(figure, &s.lighting.lights[s.lighting.light_count++]);
+    for (uint32_t i = 0; i < o->lamp_count; i++)
+        set_lamp(figure, &o->lamps[i], &s.lighting.lights[s.lighting.light_count++]);
+    s.lighting.sky = o->sky;
+    s.lighting.head = o->head;
+    s.style.transparent = o->transparent;
+    s.style.cue = o->cue;
+    s.style.cue_range[0] =
+        fmaxf(0.0f, cgt_style_distance(&figure->path.start) - 0.6f * cgt_style_shown_height(&figure->path.start));
+    s.style.cue_range[1] = cgt_style_distance(&figure->path.start) + 0.6f * cgt_style_shown_height(&figure->path.start);
+    s.style.outline = o->outline;
+    for (int c = 0; c < 3; c++) {
+        s.style.background[c] = cgt_srgb_decode(o->background[c]);
+        s.style.outline_color[c] = 0.01f;
+    }
+    if (figure->parts.mesh_entries && figure->options.particles.mesh_opacity < 1.0f) {
+        s.style.front = figure->options.particles.mesh_opacity;
+        s.style.behind_mask = MASK_ALL_BUT_MESH;
+    }
+    if (figure->bounce)
+        cgt_figure_bounce_settings(figure, &s);
+    s.work.stop = figure->stop;
+    s.work.stop_user = figure->stop_user;
+    return s;
+}
+
+/* The orthographic camera shows what the perspective one shows at its target. */
+static void set_projection(const cgt_figure *figure, cgt_camera *camera)
+{
+    if (!figure->options.picture.ortho)
+        return;
+    camera->projection = CGT_PROJECTION_ORTHOGRAPHIC;
+    camera->height = cgt_style_shown_height(camera);
+}
+
+/* ---- Overlay ------------------------------------------------------------------------------------------------ */
+
+static void name_kind(const cgt_figure *figure, uint32_t kind, int is_element, char *name, size_t size)
+{
+    const particle_options *o = &figure->options.particles;
+    if (!is_element)
+        snprintf(name, size, "type %" PRIu32, kind);
+    else
+        snprintf(name, size, "%s", kind ? element_symbol(kind) : "others");
+    for (uint32_t i = 0; i < o->name_count; i++)
+        if (o->names[i].kind.is_element == is_element && o->names[i].kind.kind == kind)
+            snprintf(name, size, "%s", o->names[i].name);
+}
+
+/* Types and elements in the order of their numbers; spheres that are no element come last. */
+static void choose_legend(cgt_figure *figure)
+{
+    const picture_options *o = &figure->options.picture;
+    const int is_element = figure->coloring.by == COLORING_ELEMENT;
+    const uint8_t *has = is_element ? figure->survey.has_elements : figure->survey.has_types;
+    overlay *v = &figure->overlay;
+    v->legend = o->legend ? o->legend : o->bar;
+    v->kinds = figure->kinds;
+    for (uint32_t i = 0; i < SURVEY_KINDS && v->legend; i++) {
+        const uint32_t kind = is_element ? (i + 1) % SURVEY_KINDS : i;
+        if (!has[kind])
+            continue;
+        if (v->kind_count < OVERLAY_MOST_KINDS) {
+            overlay_kind *const line = &figure->kinds[v->kind_count];
+            memcpy(line->color, figure->coloring.palette[cgt_coloring_entry_of_kind(&figure->coloring, kind)],
+                   sizeof line->color);
+            name_kind(figure, kind, is_element, line->name, sizeof line->name);
+        }
+        v->kind_count++;
+    }
+}
+
+static void choose_bar(cgt_figure *figure)
+{
+    const picture_options *o = &figure->options.picture;
+    figure->overlay.bar = o->bar;
+    if (o->bar && !(figure->coloring.max > figure->coloring.min))
+        cgt_notices_add(&figure->notices,
+                        "--colorbar: the colours are those of neither types nor values of some range: there is no bar");
+    if (o->legend)
+        cgt_notices_add(&figure->notices,
+                        "--legend: the colours are those of neither types nor elements: there is no legend");
+}
+
+static int choose_overlay(cgt_figure *figure)
+{
+    const picture_options *o = &figure->options.picture;
+    const uint8_t *back = o->background;
+    overlay *v = &figure->overlay;
+    if (!cgt_picture_options_have_overlay(o))
+        return 0;
+    v->size = fmaxf(8.0f, o->text_size * (float)figure->options.height);
+    v->font = cgt_text_open(o->font, v->size, figure->message, sizeof figure->message);
+    if (!v->font)
+        return -1;
+    v->title = o->title;
+    v->time = !o->time || *o->time ? o->time : "t = {time}";
+    v->axes = o->axes;
+    v->coloring = &figure->coloring;
+    if (figure->coloring.by == COLORING_TYPE || figure->coloring.by == COLORING_ELEMENT)
+        choose_legend(figure);
+    else
+        choose_bar(figure);
+    const float grey = back[0] + back[1] + back[2] > 384 ? 0.01f : 0.85f; /* dark on light, light on dark */
+    for (int c = 0; c < 3; c++)
+        v->color[c] = grey;
+    return 0;
+}
+
+void cgt_figure_draw_overlay(cgt_figure *figure)
+{
+    const canvas c = {figure->options.width, figure->options.height, figure->image.bytes, figure->image.alpha,
+                      figure->image.linear};
+    overlay_frame frame = {.number = figure->frame->number, .step = figure->frame->step, .time = figure->frame->time};
+    if (!figure->overlay.font)
+        return;
+    cgt_camera_get_axes(&figure->camera, frame.right, frame.up, frame.forward);
+    cgt_overlay_draw(&figure->overlay, &c, &frame);
+}
+
+/* ---- Pictures -------------------------------------------------------------------------------------------------- */
+
+int cgt_figure_open_picture(cgt_figure *figure)
+{
+    if (choose_overlay(figure))
+        return -1;
+    const cgt_picture_options settings = cgt_figure_get_settings(figure);
+    const cgt_result result = cgt_picture_create(figure->context, &settings, &figure->drawing);
+    if (result == CGT_ERROR_OUT_OF_MEMORY)
+        return cgt_figure_fail(figure,
+                               "out of memory for the planes of %" PRIu32 "x%" PRIu32 " rays: --style plain takes none",
+                               settings.width * settings.antialias, settings.height * settings.antialias);
+    if (result) {
+        char reason[256];
+        cgt_picture_get_error_message(figure->drawing, reason, sizeof reason);
+        return cgt_figure_fail(figure, "cannot make pictures: %s", reason);
+    }
+    return 0;
+}
+
+void cgt_figure_close_picture(cgt_figure *figure)
+{
+    cgt_picture_release(figure->drawing);
+    figure->drawing = NULL;
+    cgt_text_close(figure->overlay.font);
+    memset(&figure->overlay, 0, sizeof figure->overlay);
+}
+
+uint32_t cgt_figure_begin_picture(cgt_figure *figure, cgt_look *looks)
+{
+    set_projection(figure, &figure->camera);
+    return figure->bounce ? cgt_figure_bounce_looks(figure->bounce, looks) : cgt_figure_scene_looks(figure, looks);
+}
+
+cgt_result cgt_figure_trace(cgt_figure *figure, const cgt_trace_options *options)
+{
+    cgt_look looks[FIGURE_LOOKS];
+    const uint32_t count = cgt_figure_begin_picture(figure, looks);
+    const cgt_result result =
+        cgt_picture_draw(figure->drawing, figure->scene, &figure->camera, looks, count, &figure->image, options);
+    if (result == CGT_OK)
+        cgt_figure_draw_overlay(figure);
+    return result;
+}

@@ -1,0 +1,352 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What is chosen before the first picture, where no option says it: origin, colours, camera, light; see
+ * figure_state.h. */
+#include <inttypes.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "survey/origin.h"
+#include "figure_state.h"
+
+/* ---- Failures ----------------------------------------------------------------------------------------------- */
+
+int cgt_figure_fail(cgt_figure *figure, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(figure->message, sizeof figure->message, format, arguments);
+    va_end(arguments);
+    return -1;
+}
+
+static int fail_frame(cgt_figure *figure, const char *action, const char *message, cgt_result result)
+{
+    return cgt_figure_fail(figure, "%s: frame %" PRIu64 ": cannot %s: %s", figure->source,
+                           figure->frame ? figure->frame->number : 0, action,
+                           *message ? message : cgt_get_result_string(result));
+}
+
+int cgt_figure_fail_library(cgt_figure *figure, const char *action, cgt_result result)
+{
+    char message[512];
+    cgt_context_get_error_message(figure->context, message, sizeof message);
+    return fail_frame(figure, action, message, result);
+}
+
+int cgt_figure_fail_picture(cgt_figure *figure, cgt_result result)
+{
+    char message[512];
+    cgt_picture_get_error_message(figure->drawing, message, sizeof message);
+    return fail_frame(figure, "trace", message, result);
+}
+
+/* ---- What must be known ------------------------------------------------------------------------------------- */
+
+/* Whether types or elements are to be named, which are those of all frames. */
+static int has_legend(const figure_options *o)
+{
+    return (o->picture.legend || o->picture.bar) &&
+           (o->by == COLORING_AUTO || o->by == COLORING_TYPE || o->by == COLORING_ELEMENT);
+}
+
+int cgt_figure_open(cgt_figure *figure)
+{
+    const figure_options *o = &figure->options;
+    frame_sequence *const sequence = &figure->sequence;
+    const unwrap_mode mode = o->whole ? UNWRAP_WHOLE : o->unwrap ? UNWRAP_IMAGES : UNWRAP_NOT;
+    if (o->by == COLORING_VALUE &&
+        !(figure->formula = cgt_expression_parse(o->formula, figure->message, sizeof figure->message)))
+        return -1;
+    if (o->by == COLORING_AUTO || o->by == COLORING_SPEED ||
+        (figure->formula && cgt_expression_uses(figure->formula, "speed"))) {
+        sequence->tracker = cgt_speed_create(figure->context);
+        if (!sequence->tracker)
+            return cgt_figure_fail(figure, "out of memory");
+    }
+    sequence->wants_kinds = has_legend(o);
+    if (cgt_frame_sequence_unwrap(sequence, mode, figure->message, sizeof figure->message) ||
+        cgt_frame_sequence_bind(sequence, figure->formula, figure->message, sizeof figure->message))
+        return -1;
+    return cgt_figure_scene_open(figure);
+}
+
+uint64_t cgt_figure_needs_frames(const cgt_figure *figure, uint64_t most)
+{
+    const figure_options *o = &figure->options;
+    const int measured =
+        o->by != COLORING_TYPE && o->by != COLORING_PLAIN && o->by != COLORING_AUTO && o->by != COLORING_ELEMENT;
+    if (!o->has_camera || (measured && !o->has_range) || (o->floor.is_set && !o->floor.has_place))
+        return most;
+    if (has_legend(o))
+        return most;
+    /* the up axis depends on the kind, and meshes of glass are as dark as they are large */
+    return o->by == COLORING_AUTO || o->by == COLORING_HEIGHT || o->bounce.count;
+}
+
+int cgt_figure_is_decided(const cgt_figure *figure)
+{
+    const survey *s = &figure->survey;
+    if (s->kind == CGT_TRAJECTORY_TRIANGLES && figure->options.bounce.count)
+        return 0;
+    return figure->options.by != COLORING_AUTO || s->kind == CGT_TRAJECTORY_TRIANGLES || s->has_element ||
+           s->type_max > s->type_min;
+}
+
+const camera_directions *cgt_figure_begin_fit(cgt_figure *figure)
+{
+    if (figure->options.has_camera)
+        return NULL;
+    for (int kind = 0; kind < 2; kind++) {
+        figure_options o = figure->options;
+        cgt_figure_options_axes(&o, kind ? CGT_TRAJECTORY_TRIANGLES : CGT_TRAJECTORY_SPHERES);
+        cgt_camera_directions_set(&figure->fit[kind], o.view, o.up, o.fov, (double)o.width / (double)o.height,
+                                  (double)o.orbit, o.picture.ortho);
+    }
+    return figure->fit;
+}
+
+/* ---- Origin ------------------------------------------------------------------------------------------------- */
+
+/* `more` is as seen from the origin so far. */
+static void take_origin(cgt_figure *figure, const double more[3], const char *what)
+{
+    for (int c = 0; c < 3; c++)
+        figure->origin[c] += more[c];
+    char text[300];
+    cgt_origin_tell(figure->origin, what, text, sizeof text);
+    cgt_notices_add(&figure->notices, "%s", text);
+}
+
+int cgt_figure_choose_camera_origin(cgt_figure *figure)
+{
+    const camera_key *const camera = &figure->options.camera;
+    double eye[3], target[3], origin[3];
+    for (int c = 0; c < 3; c++) {
+        eye[c] = camera->eye[c] - figure->origin[c];
+        target[c] = camera->target[c] - figure->origin[c];
+    }
+    if (!figure->options.has_camera || figure->has_origin || !cgt_origin_of_camera(eye, target, origin))
+        return 0;
+    take_origin(figure, origin, "the camera looks at places");
+    return 1;
+}
+
+int cgt_figure_choose_bulk_origin(cgt_figure *figure)
+{
+    double origin[3];
+    if (!figure->has_survey || figure->options.has_camera || figure->has_origin ||
+        figure->survey.kind == CGT_TRAJECTORY_TRIANGLES || !cgt_origin_of_bulk(&figure->survey.bulk, origin))
+        return 0;
+    take_origin(figure, origin, "the spheres are");
+    return 1;
+}
+
+int cgt_figure_move_cameras(cgt_figure *figure)
+{
+    figure_options *const o = &figure->options;
+    int same = o->has_camera && cgt_camera_key_move(&o->camera, figure->origin);
+    for (size_t k = 0; k < o->keys.count; k++)
+        same |= cgt_camera_key_move(&o->keys.key[k], figure->origin);
+    if (same)
+        return cgt_figure_fail(
+            figure, "eye and target of the camera are the same point in single precision: an --origin near them helps");
+    if (figure->has_survey)
+        cgt_figure_options_axes(o, figure->survey.kind);
+    return 0;
+}
+
+void cgt_figure_name_camera(const cgt_figure *figure, const cgt_camera *camera, char text[FIGURE_CAMERA_SIZE])
+{
+    const int digits = figure_is_moved(figure) ? 15 : 9;
+    size_t used = 0;
+    for (int c = 0; c < 6; c++)
+        used += (size_t)snprintf(text + used, FIGURE_CAMERA_SIZE - used, "%.*g,", digits,
+                                 (double)(c < 3 ? camera->eye : camera->target)[c % 3] + figure->origin[c % 3]);
+    snprintf(text + used, FIGURE_CAMERA_SIZE - used, "%.9g,%.9g,%.9g,%.9g\n", (double)camera->up[0],
+             (double)camera->up[1], (double)camera->up[2], (double)camera->fov);
+}
+
+/* ---- Colours ------------------------------------------------------------------------------------------------ */
+
+int cgt_figure_choose_colors(cgt_figure *figure)
+{
+    const figure_options *o = &figure->options;
+    const coloring_by by = o->by == COLORING_AUTO ? cgt_coloring_choose(&figure->survey) : o->by;
+    const int axis = o->up[0] != 0.0f ? 0 : o->up[1] != 0.0f ? 1 : 2;
+    double min = o->range_min, max = o->range_max;
+    if (!o->has_range)
+        cgt_coloring_choose_range(&figure->survey, by, axis, o->logarithmic, figure->origin, &min, &max);
+    if (!figure_is_moved(figure)) { /* near 0 single precision does, and is what settings are printed in */
+        min = (double)(float)min;
+        max = (double)(float)max;
+    }
+    const int is_chosen = o->by == COLORING_AUTO && by == COLORING_ID;
+    if ((is_chosen || by == COLORING_SPEED) && cgt_coloring_has_jumps(&figure->survey))
+        cgt_notices_add(&figure->notices,
+                        "spheres move by more than half of the run's extent in one frame, as through the boundary of a "
+                        "periodic box, but the file has no box: %s",
+                        is_chosen ? "colours are not chosen by speed" : "speeds may be false");
+    if (by == COLORING_PLAIN ? cgt_coloring_init_plain(&figure->coloring, o->plain)
+                             : cgt_coloring_init(&figure->coloring, by, o->map, min, max))
+        return cgt_figure_fail(figure, "out of memory");
+    cgt_figure_scene_color(figure);
+    figure->coloring.axis = axis;
+    figure->coloring.formula = figure->formula;
+    figure->coloring.logarithmic = o->logarithmic && by != COLORING_TYPE && by != COLORING_PLAIN && min > 0.0;
+    if (o->logarithmic && !figure->coloring.logarithmic)
+        cgt_notices_add(&figure->notices, "--log-scale: there is nothing above 0 to scale: the scale is linear");
+    return 0;
+}
+
+/* ---- Camera and light --------------------------------------------------------------------------------------- */
+
+enum { BOUNDS_SIZE = 200 };
+
+/* "from (0, 0, 0) to (1, 1, 1)", in the file's coordinates. */
+static void write_bounds(const cgt_figure *figure, const float min[3], const float max[3], char text[BOUNDS_SIZE])
+{
+    const int digits = figure_is_moved(figure) ? 15 : 6;
+    const double *const o = figure->origin;
+    snprintf(text, BOUNDS_SIZE, "from (%.*g, %.*g, %.*g) to (%.*g, %.*g, %.*g)", digits, o[0] + (double)min[0], digits,
+             o[1] + (double)min[1], digits, o[2] + (double)min[2], digits, o[0] + (double)max[0], digits,
+             o[1] + (double)max[1], digits, o[2] + (double)max[2]);
+}
+
+/* What the camera must show of a bulk: all within its bounds where that is among the samples, else the bounds. */
+static void narrow_reach(survey *s, const camera_directions *fit)
+{
+    const bulk *const b = &s->bulk;
+    camera_reach within;
+    cgt_camera_reach_clear(&within);
+    if (b->count < b->seen)
+        cgt_camera_reach_add_box(&within, fit, s->bounds_min, s->bounds_max);
+    for (uint32_t i = 0; i < b->count && b->count == b->seen; i++) {
+        const float *const p = b->sample[i].place;
+        const double place[3] = {(double)p[0], (double)p[1], (double)p[2]};
+        int is_inside = 1;
+        for (int c = 0; c < 3; c++)
+            is_inside &= p[c] - p[3] >= s->bounds_min[c] && p[c] + p[3] <= s->bounds_max[c];
+        if (is_inside)
+            cgt_camera_reach_add(&within, fit, place, (double)p[3]);
+    }
+    for (uint32_t k = 0; k < fit->count; k++)
+        s->reach.along[k] = fmin(s->reach.along[k], within.along[k]);
+}
+
+/* The camera, and what depends on the scene's size, follow the bulk: one primitive that has flown off must not make all
+ * others a dot. */
+static void follow_bulk(cgt_figure *figure)
+{
+    survey *s = &figure->survey;
+    int narrowed;
+    const float was_min[3] = {s->bounds_min[0], s->bounds_min[1], s->bounds_min[2]};
+    const float was_max[3] = {s->bounds_max[0], s->bounds_max[1], s->bounds_max[2]};
+    const uint64_t outside = cgt_bulk_narrow(&s->bulk, s->bounds_min, s->bounds_max, &narrowed);
+    if (narrowed)
+        narrow_reach(s, figure_fit(figure));
+    if (!narrowed || figure->options.has_camera)
+        return;
+    char bounds[2][BOUNDS_SIZE];
+    write_bounds(figure, s->bounds_min, s->bounds_max, bounds[0]);
+    write_bounds(figure, was_min, was_max, bounds[1]);
+    cgt_notices_add(&figure->notices,
+                    "the camera follows the bulk, %s, and leaves out about %" PRIu64 " of %" PRIu64
+                    " %s of the run, which reaches %s",
+                    bounds[0], outside, s->drawable, s->kind == CGT_TRAJECTORY_TRIANGLES ? "triangles" : "spheres",
+                    bounds[1]);
+}
+
+int cgt_figure_choose_camera(cgt_figure *figure)
+{
+    const figure_options *o = &figure->options;
+    const camera_directions *const fit = figure_fit(figure);
+    survey *const s = &figure->survey;
+    if (s->drawable)
+        follow_bulk(figure);
+    if (o->has_camera) {
+        cgt_camera_path_fixed(&figure->path, &o->camera.camera, (double)o->orbit);
+        cgt_figure_scene_bound(figure);
+        return 0;
+    }
+    cgt_figure_scene_bound(figure);
+    if (!s->drawable) {
+        for (int c = 0; c < 3; c++) {
+            s->bounds_min[c] = -1.0f;
+            s->bounds_max[c] = 1.0f;
+        }
+        cgt_camera_reach_add_box(&s->reach, fit, s->bounds_min, s->bounds_max);
+    }
+    if (cgt_camera_path_fit(&figure->path, fit, &s->reach, s->bounds_min, s->bounds_max) == 0) {
+        if (o->zoom > 0.0f)
+            cgt_camera_path_zoom(&figure->path, o->zoom);
+        return 0;
+    }
+    char bounds[BOUNDS_SIZE];
+    write_bounds(figure, s->bounds_min, s->bounds_max, bounds);
+    return cgt_figure_fail(figure, "%s: the scene, %s, is too large for an automatic camera: give one with -c",
+                           figure->source, bounds);
+}
+
+void cgt_figure_choose_light(cgt_figure *figure)
+{
+    const figure_options *o = &figure->options;
+    if (o->has_light)
+        memcpy(figure->light, o->light, sizeof figure->light);
+    else
+        cgt_camera_get_key_light(&figure->camera, o->width, o->height, figure->light);
+}
+
+void cgt_figure_camera_at(const cgt_figure *figure, uint64_t number, cgt_camera *camera)
+{
+    const double share = figure->survey.has_total ? (double)number / (double)figure->survey.total : 0.0;
+    if (figure->options.keys.count)
+        cgt_camera_keys_at(&figure->options.keys, number, camera);
+    else
+        cgt_camera_path_at(&figure->path, share, camera);
+}
+
+/* ---- All that is left ---------------------------------------------------------------------------------------- */
+
+/* Speeds that the colours do not show are not looked for. */
+static void drop_speeds(cgt_figure *figure)
+{
+    if (figure->coloring.by == COLORING_SPEED || (figure->formula && cgt_expression_uses(figure->formula, "speed")))
+        return;
+    cgt_speed_release(figure->sequence.tracker);
+    figure->sequence.tracker = NULL;
+}
+
+int cgt_figure_settle(cgt_figure *figure)
+{
+    figure_options *const o = &figure->options;
+    drop_speeds(figure);
+    const cgt_result result = cgt_scene_create(figure->context, NULL, &figure->scene);
+    if (result)
+        return cgt_figure_fail_library(figure, "make a scene", result);
+    if (o->picture.ambient < 0) {
+        const style_values *const s = cgt_style_get(o->picture.style);
+        o->picture.ambient = figure->is_mesh ? s->mesh_ambient : s->ambient;
+    }
+    cgt_camera_path_at(&figure->path, 0.0, &figure->camera);
+    cgt_figure_choose_light(figure);
+    if (o->floor.is_set)
+        cgt_figure_scene_floor(figure);
+    return o->bounce.is_set ? cgt_figure_bounce_create(figure) : 0;
+}
+
+void cgt_figure_close(cgt_figure *figure)
+{
+    cgt_figure_close_picture(figure);
+    cgt_figure_bounce_release(figure->bounce);
+    cgt_scene_release(figure->scene);
+    cgt_coloring_free(&figure->coloring);
+    cgt_figure_scene_close(figure);
+    cgt_frame_sequence_close(&figure->sequence);
+    cgt_expression_free(figure->formula);
+    cgt_camera_keys_free(&figure->options.keys);
+    cgt_notices_free(&figure->notices);
+}

@@ -1,0 +1,160 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A figure: options and a run's frames on one side, pictures on the other. It reads no files and prints nothing.
+ * In the order of a run: cgt_figure_open; frames taken by its sequence and looked at for its survey; the choices of
+ * figure_settle.c; then for each frame cgt_figure_scene_prepare, _set, a commit, and a picture.
+ * Functions that return an int give 0, or -1 with a sentence in figure->message, unless they say otherwise. */
+#ifndef FIGURE_STATE_H
+#define FIGURE_STATE_H
+
+#include <stdint.h>
+
+#include <cgt/picture.h>
+
+#include "color/coloring.h"
+#include "text/overlay.h"
+#include "camera/camera_path.h"
+#include "sequence/frame_sequence.h"
+#include "survey/survey.h"
+#include "scene/figure_scene.h"
+#include "notices.h"
+#include "options/figure_options.h"
+
+typedef struct figure_bounce figure_bounce;
+
+enum { FIGURE_MESSAGE_SIZE = 1024 };
+
+struct cgt_figure {
+    /* What the caller sets; what it points to outlives the figure. */
+    figure_options options;
+    const char *source;             /* how messages call the data, such as a path */
+    cgt_context *context;           /* of the scene */
+    bool (*stop)(const void *user); /* asked while a picture is made */
+    const void *stop_user;
+    double origin[3]; /* that is subtracted from the data */
+    int has_origin;   /* it was given: none is chosen */
+    int is_mesh;      /* the data are a mesh file, which gets more ambient rays */
+
+    frame_sequence sequence;
+    int has_survey;
+    survey survey;            /* where has_survey */
+    camera_directions fit[2]; /* of the automatic camera, for spheres and for triangles */
+
+    coloring coloring;   /* its index is that of the frame that is drawn */
+    expression *formula; /* of the colours; NULL: none */
+    camera_path path;
+    cgt_camera camera; /* of the frame */
+    float light[3];    /* towards the first light */
+
+    cgt_scene *scene;
+    figure_scene parts;    /* what the frames' geometries are made of */
+    figure_bounce *bounce; /* mirrors and glass; else NULL */
+    int has_geometry;      /* made from the first frame, which tells the kind */
+    uint32_t geometry;
+    const cgt_trajectory_frame *frame; /* that is drawn */
+    speed_source speed_from;
+
+    cgt_picture *drawing; /* makes the picture */
+    cgt_image image;      /* of the frame: the caller's memory */
+    overlay overlay;
+    overlay_kind kinds[OVERLAY_MOST_KINDS]; /* of its legend */
+    notices notices;                        /* what a user should read */
+    char message[FIGURE_MESSAGE_SIZE];
+};
+
+/* Whether an origin is subtracted from the data's coordinates. */
+static inline int figure_is_moved(const cgt_figure *figure)
+{
+    return figure->origin[0] != 0.0 || figure->origin[1] != 0.0 || figure->origin[2] != 0.0;
+}
+
+static inline const camera_directions *figure_fit(const cgt_figure *figure)
+{
+    return &figure->fit[figure->survey.kind == CGT_TRAJECTORY_TRIANGLES];
+}
+
+/* All return -1: a sentence; that there is no memory for something; the library's message about an action that has
+ * failed, of the context or of figure->drawing. */
+int cgt_figure_fail(cgt_figure *figure, const char *format, ...) __attribute__((format(printf, 2, 3)));
+int cgt_figure_fail_library(cgt_figure *figure, const char *action, cgt_result result);
+int cgt_figure_fail_picture(cgt_figure *figure, cgt_result result);
+
+/* ---- Before the first picture (figure_settle.c) ---- */
+
+/* Parses formulas, and makes what the sequence needs; options, context and origin are set, all else is zero. */
+int cgt_figure_open(cgt_figure *figure);
+
+/* How many frames must be looked at before the first picture: `most`, if those of the run; the first, which tells the
+ * kind and whether there are types; or none. */
+uint64_t cgt_figure_needs_frames(const cgt_figure *figure, uint64_t most);
+
+/* Whether the first frame, which was looked at alone, is enough for automatic colours. */
+int cgt_figure_is_decided(const cgt_figure *figure);
+
+/* What the automatic camera asks of the survey, before the kind of the data is known: figure->fit, or NULL. */
+const camera_directions *cgt_figure_begin_fit(cgt_figure *figure);
+
+/* An origin for a camera that was given and looks at something far off, before the survey; one for a run that lies far
+ * off, after it. Both return 1 where figure->origin has changed, else 0. Then the cameras of the options are moved by
+ * the origin, and up and view chosen. */
+int cgt_figure_choose_camera_origin(cgt_figure *figure);
+int cgt_figure_choose_bulk_origin(cgt_figure *figure);
+int cgt_figure_move_cameras(cgt_figure *figure);
+
+/* After that, in this order: what the colours show and their range; the camera. */
+int cgt_figure_choose_colors(cgt_figure *figure);
+int cgt_figure_choose_camera(cgt_figure *figure);
+
+/* The rest: ambient rays, the first light, which is over the left shoulder of the first camera and does not follow an
+ * orbit, floor, mirrors and glass, an empty scene. */
+int cgt_figure_settle(cgt_figure *figure);
+void cgt_figure_choose_light(cgt_figure *figure);
+
+/* The camera of the frame `number`. */
+void cgt_figure_camera_at(const cgt_figure *figure, uint64_t number, cgt_camera *camera);
+
+/* Writes a camera as the option camera takes it, in the data's coordinates. */
+enum { FIGURE_CAMERA_SIZE = 256 }; /* ten numbers of at most 24 letters */
+void cgt_figure_name_camera(const cgt_figure *figure, const cgt_camera *camera, char text[FIGURE_CAMERA_SIZE]);
+
+/* Frees all but context and options' texts, also after a failure. */
+void cgt_figure_close(cgt_figure *figure);
+
+/* ---- From a committed scene to a picture (figure_draw.c) ---- */
+
+/* Chooses how pictures are made: drawing and overlay; camera, light and survey are set. */
+int cgt_figure_open_picture(cgt_figure *figure);
+void cgt_figure_close_picture(cgt_figure *figure);
+
+/* How the picture is made that path.start and light see; the options give its size. */
+cgt_picture_options cgt_figure_get_settings(const cgt_figure *figure);
+
+/* Draws the scene by figure->camera to figure->image. Errors are those of figure->drawing. */
+cgt_result cgt_figure_trace(cgt_figure *figure, const cgt_trace_options *options);
+
+/* The parts of that before drawing, projection and looks, which it counts, and after it. */
+uint32_t cgt_figure_begin_picture(cgt_figure *figure, cgt_look *looks);
+void cgt_figure_draw_overlay(cgt_figure *figure);
+
+/* ---- Mirrors and glass (figure_bounce.c) ----
+ * The frame's spheres become two geometries, opaque ones and glass, with a material each. A file of triangles is of one
+ * material. */
+
+/* Makes figure->bounce, after colours, camera and floor. */
+int cgt_figure_bounce_create(cgt_figure *figure);
+
+/* Sets materials and what belongs to them. */
+void cgt_figure_bounce_settings(const cgt_figure *figure, cgt_picture_options *settings);
+
+/* cgt_figure_scene_set and _find of these geometries; *primitive becomes the number among all that is drawn of the
+ * data. */
+int cgt_figure_bounce_set(cgt_figure *figure, const frame_parts *parts);
+int cgt_figure_bounce_find(const cgt_figure *figure, uint32_t geometry, uint32_t *primitive);
+
+/* Sets the look of each geometry; returns how many there are. */
+uint32_t cgt_figure_bounce_looks(const figure_bounce *bounce, cgt_look *looks);
+
+void cgt_figure_bounce_release(figure_bounce *bounce); /* NULL does nothing */
+
+#endif

@@ -1,0 +1,150 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What is not given of a figure, and what needs several options; see figure_options.h. */
+#include "options/figure_options.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "camera/camera_path.h"
+
+/* ---- Style --------------------------------------------------------------------------------------------------- */
+
+static void set_default(float *value, float otherwise) { *value = *value < 0.0f ? otherwise : *value; }
+
+/* Puts the values of the style where none were given. */
+static void take_style(picture_options *o)
+{
+    const style_values *const s = cgt_style_get(o->style);
+    o->ambient = o->ambient < 0 && !s->ambient ? 0 : o->ambient;
+    o->shadows = o->shadows < 0 ? s->shadows : o->shadows;
+    o->light_samples = o->light_samples < 0 ? 8 : o->light_samples;
+    o->own_light = o->key >= 0.0f || o->sky >= 0.0f || o->head >= 0.0f;
+    set_default(&o->key, s->key);
+    set_default(&o->sky, s->sky);
+    set_default(&o->head, s->head);
+    set_default(&o->outline, s->outline);
+    set_default(&o->light_size, 0.0f);
+    set_default(&o->cue, 0.0f);
+    if (!o->has_background)
+        memcpy(o->background, s->background, sizeof s->background);
+}
+
+int cgt_picture_options_have_overlay(const picture_options *o)
+{
+    return o->title || o->time || o->bar || o->legend || o->axes;
+}
+
+int cgt_picture_options_need_drawing(const picture_options *o)
+{
+    return o->style != STYLE_PLAIN || o->ambient || o->shadows || o->lamp_count || o->cue > 0.0f || o->outline > 0.0f ||
+           o->transparent || o->own_light;
+}
+
+/* ---- Axes ---------------------------------------------------------------------------------------------------- */
+
+static int is_zero(const float v[3]) { return v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f; }
+
+/* From one side: front is where the automatic camera stands, nearly. From above and below the front is at the bottom of
+ * the picture, at its top. */
+static void look_from(figure_options *o, int axis)
+{
+    const int front = axis == 1 ? 2 : 1, right = 3 - axis - front;
+    const float to_front = axis == 2 ? -1.0f : 1.0f;
+    switch (o->side) {
+    case VIEW_BY_DIRECTION: return;
+    case VIEW_FRONT: o->view[front] = to_front; break;
+    case VIEW_BACK: o->view[front] = -to_front; break;
+    case VIEW_RIGHT: o->view[right] = 1.0f; break;
+    case VIEW_LEFT: o->view[right] = -1.0f; break;
+    case VIEW_TOP:
+    case VIEW_BOTTOM:
+        o->view[axis] = o->side == VIEW_TOP ? 1.0f : -1.0f;
+        o->up[axis] = 0.0f;
+        o->up[front] = o->side == VIEW_TOP ? -to_front : to_front;
+        o->floor.axis = o->floor.axis ? o->floor.axis : (uint32_t)axis + 1;
+        break;
+    }
+}
+
+void cgt_figure_options_axes(figure_options *o, cgt_trajectory_kind kind)
+{
+    float *up = o->up, *view = o->view;
+    if (is_zero(up)) {
+        const int axis = kind == CGT_TRAJECTORY_TRIANGLES ? 1 : 2;
+        up[axis] = 1.0f;
+        if (!is_zero(view) && cgt_camera_path_is_along(view, up)) {
+            up[axis] = 0.0f;
+            up[3 - axis] = 1.0f;
+        }
+    }
+    const int axis = up[0] != 0.0f ? 0 : up[1] != 0.0f ? 1 : 2;
+    if (is_zero(view))
+        look_from(o, axis);
+    if (!is_zero(view))
+        return;
+    view[axis] = 0.45f;
+    view[(axis + 1) % 3] = axis == 2 ? 0.5f : 1.0f;
+    view[(axis + 2) % 3] = axis == 2 ? -1.0f : 0.5f;
+}
+
+/* ---- All of them ---------------------------------------------------------------------------------------------- */
+
+static int refuse(char *error, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+static int refuse(char *error, size_t size, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(error, size, format, arguments);
+    va_end(arguments);
+    return -1;
+}
+
+int cgt_figure_options_finish(figure_options *o, char *error, size_t size)
+{
+    o->floor.is_set |= o->floor.axis || o->floor.has_height || o->floor.has_place;
+    if (o->floor.is_set && o->picture.shadows < 0)
+        o->picture.shadows = 1; /* in all styles: what casts none seems to float */
+    take_style(&o->picture);
+    if (o->logarithmic && o->has_range && !(o->range_min > 0.0))
+        return refuse(error, size, "--log-scale: the range must be above 0");
+    if (o->keys.count && o->orbit != 0.0f)
+        return refuse(error, size, "--camera-keys and --orbit exclude each other");
+    if ((uint64_t)o->width * o->height * o->samples * o->samples > FIGURE_MAX_PIXELS ||
+        o->width > FIGURE_MAX_EDGE / o->samples || o->height > FIGURE_MAX_EDGE / o->samples)
+        return refuse(error, size, "%ux%u pixels of %ux%u rays: at most %d an edge and %llu in all", o->width,
+                      o->height, o->samples, o->samples, FIGURE_MAX_EDGE, (unsigned long long)FIGURE_MAX_PIXELS);
+    if (o->has_camera && (o->has_view || o->has_up || o->has_fov || o->zoom > 0.0f))
+        return refuse(error, size, "--view, --up, --fov and --zoom are for the automatic camera and exclude --camera");
+    if (o->unwrap && o->whole)
+        return refuse(error, size, "--unwrap and --whole exclude each other");
+    if (o->has_view && o->has_up && !o->side && cgt_camera_path_is_along(o->view, o->up))
+        return refuse(error, size, "--view: the direction must not be along the axis that points up");
+    if (o->bounce.count && !o->bounce.is_set)
+        return refuse(error, size, "--material is for --bounces");
+    return 0;
+}
+
+void cgt_figure_options_init(figure_options *o)
+{
+    memset(o, 0, sizeof *o);
+    cgt_camera_init(&o->camera.camera);
+    o->width = 1280;
+    o->height = 720;
+    o->samples = 1;
+    o->fov = 30.0f;
+    memcpy(o->plain, cgt_style_mesh_color, sizeof o->plain);
+
+    picture_options *p = &o->picture;
+    p->text_size = 0.03f;
+    p->ambient = p->shadows = p->light_samples = -1;
+    p->ambient_radius = p->light_size = p->key = p->sky = p->head = p->cue = p->outline = -1.0f;
+
+    particle_options *d = &o->particles;
+    d->radius_scale = d->arrow_scale = d->mesh_opacity = 1.0f;
+    d->images[0] = d->images[1] = d->images[2] = 1;
+    memcpy(d->mesh_color, (const uint8_t[]){0xb8, 0xbc, 0xc2}, sizeof d->mesh_color);
+}

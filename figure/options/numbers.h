@@ -1,0 +1,45 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Numbers, words and cameras from texts. A parser returns 0, or -1 with a sentence in error. One that fails changes none
+ * of its results. */
+#ifndef NUMBERS_H
+#define NUMBERS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cgt/cgt.h>
+
+/* Reads the value of an option to its place. Returns 0, or -1 with a sentence. */
+typedef int option_parser(const char *text, void *to, char *error, size_t error_size);
+
+/* A whole number from min to max, decimal digits only. */
+int cgt_read_u64(const char *text, uint64_t min, uint64_t max, uint64_t *value, char *error, size_t error_size);
+int cgt_read_u32(const char *text, uint32_t min, uint32_t max, uint32_t *value, char *error, size_t error_size);
+
+/* A finite number from min to max, both included. */
+int cgt_read_float(const char *text, float min, float max, float *value, char *error, size_t error_size);
+
+/* Exactly `count` finite numbers with commas between them; count is at most 16. */
+int cgt_read_floats(const char *text, size_t count, float *values, char *error, size_t error_size);
+
+/* The same in double. */
+int cgt_read_doubles(const char *text, size_t count, double *values, char *error, size_t error_size);
+
+/* A picture's size, "1280x720": each edge 1 to 65,536 pixels. */
+int cgt_read_size(const char *text, uint32_t *width, uint32_t *height, char *error, size_t error_size);
+
+/* A camera, "ex,ey,ez,tx,ty,tz,ux,uy,uz,fov": eye, target, up, vertical angle in degrees. Sets projection, eye,
+ * target, up and fov and leaves the rest of camera as it is. Refuses eye = target, an up that is zero or parallel to
+ * the view, and an angle that is not above 0 and below 180. */
+int cgt_read_camera(const char *text, cgt_camera *camera, char *error, size_t error_size);
+
+/* The same, with eye and target also in double: so near to each other that single precision may not tell them apart. */
+int cgt_read_far_camera(const char *text, cgt_camera *camera, double eye[3], double target[3], char *error,
+                        size_t error_size);
+
+/* The number of a word in a list with blanks or ", " between them; -1: it is not there. */
+int cgt_find_word(const char *list, const char *word);
+
+#endif

@@ -1,0 +1,96 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Bonds; see shapes.h. */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "data/near_pairs.h"
+#include "scene/shapes.h"
+#include "sequence/periodic_box.h"
+
+/* ---- One bond ----------------------------------------------------------------------------------------------- */
+
+/* Two halves, which meet in the middle. */
+static void add_bond(sticks *s, const bond_rules *r, const particles *p, uint32_t a, uint32_t b)
+{
+    const float *pa = p->xyzr + 4 * (size_t)a, *pb = p->xyzr + 4 * (size_t)b;
+    const uint16_t ea = r->entry < 0 ? p->index[a] : (uint16_t)r->entry;
+    const uint16_t eb = r->entry < 0 ? p->index[b] : (uint16_t)r->entry;
+    cgt_sticks_add(s, pa, pb, cgt_sticks_visible(s, pa, cgt_sticks_visible(s, pb, r->radius)), ea, eb);
+}
+
+/* ---- Bonds of the frame ------------------------------------------------------------------------------------- */
+
+/* The image in which the other end of a bond is drawn, the first end being in the image `from`; UINT32_MAX: none. */
+static uint32_t image_across(const uint32_t images[3], uint32_t from, const double count[3])
+{
+    const uint32_t at[3] = {from % images[0], from / images[0] % images[1], from / images[0] / images[1]};
+    double other[3];
+    for (int e = 0; e < 3; e++) {
+        other[e] = (double)at[e] - count[e];
+        if (other[e] < 0.0 || other[e] >= (double)images[e])
+            return UINT32_MAX;
+    }
+    return (uint32_t)other[0] + images[0] * ((uint32_t)other[1] + images[1] * (uint32_t)other[2]);
+}
+
+/* The spheres are in the file's order, those that are not drawn left out, then come the images. */
+static int add_file_bonds(sticks *s, const bond_rules *r, const cgt_trajectory_frame *f, const particles *p,
+                          char *error, size_t error_size)
+{
+    const periodic_box box = cgt_periodic_box_of(f);
+    const uint32_t copies = r->images[0] * r->images[1] * r->images[2], originals = p->count / copies;
+    uint32_t *place = malloc(((size_t)f->count + 1) * sizeof *place);
+    if (!place) {
+        snprintf(error, error_size, "out of memory for bonds");
+        return -1;
+    }
+    for (uint32_t i = 0; i < f->count; i++)
+        place[i] = UINT32_MAX;
+    for (uint32_t i = 0; i < originals; i++)
+        place[p->source[i]] = i;
+    for (uint32_t i = 0; i < f->bonds; i++) {
+        const uint32_t a = place[f->bond[2 * (size_t)i]], b = place[f->bond[2 * (size_t)i + 1]];
+        double count[3];
+        if (a == UINT32_MAX || b == UINT32_MAX)
+            continue;
+        cgt_periodic_box_crossed(&box, p->xyzr + 4 * (size_t)a, p->xyzr + 4 * (size_t)b, count);
+        for (uint32_t image = 0; image < copies; image++) {
+            const uint32_t other = image_across(r->images, image, count);
+            if (other != UINT32_MAX)
+                add_bond(s, r, p, image * originals + a, other * originals + b);
+        }
+    }
+    free(place);
+    return 0;
+}
+
+/* ---- Bonds by distance -------------------------------------------------------------------------------------- */
+
+typedef struct near_bonds {
+    sticks *s;
+    const bond_rules *r;
+    const particles *p;
+} near_bonds;
+
+static int add_near_bond(void *user, uint32_t first, uint32_t second, float square)
+{
+    const near_bonds *const n = user;
+    (void)square;
+    add_bond(n->s, n->r, n->p, first, second);
+    return n->s->failed ? -1 : 0;
+}
+
+int cgt_shapes_add_bonds(sticks *s, const bond_rules *r, const cgt_trajectory_frame *f, const particles *p, char *error,
+                         size_t error_size)
+{
+    near_bonds near = {s, r, p};
+    if (!(r->distance > 0.0f))
+        return f->bonds > 0 ? add_file_bonds(s, r, f, p, error, error_size) : 0;
+    if (cgt_near_pairs_find(p->xyzr, p->count, r->distance, add_near_bond, &near) && !s->failed) {
+        snprintf(error, error_size, "out of memory for bonds");
+        return -1;
+    }
+    return 0;
+}

@@ -1,0 +1,372 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Surveys of a run; see survey.h. The primitives of large frames are shared among threads. Each has a survey of
+ * its own, which `merge` adds at the end: the sum does not depend on who looked at what. */
+#include "survey/survey.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int finite_point(const float p[3]) { return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]); }
+
+/* Extends the bounds by a box of half edge `reach` around a point that is finite. */
+static inline void bound_point(float min[3], float max[3], const float p[3], float reach)
+{
+    for (int c = 0; c < 3; c++) { /* fminf and fmaxf would be calls */
+        const float low = p[c] - reach, high = p[c] + reach;
+        min[c] = low < min[c] ? low : min[c];
+        max[c] = high > max[c] ? high : max[c];
+    }
+}
+
+static void reach_point(survey *s, const camera_directions *fit, const float p[3], float radius)
+{
+    const double place[3] = {(double)p[0], (double)p[1], (double)p[2]};
+    cgt_camera_reach_add(&s->reach, fit, place, (double)radius);
+}
+
+enum { BLOCK = 256 };
+
+/* Whether a sphere within the bounds may reach farther than all before: each sum below is rounded as that of
+ * cgt_camera_reach_add, of terms that are at least as large. */
+static int may_reach_farther(const camera_reach *reach, const camera_directions *fit, const float min[3],
+                             const float max[3], float radius)
+{
+    for (uint32_t k = 0; k < fit->count; k++) {
+        const double x = fit->x[k] * (double)(fit->x[k] > 0.0 ? max[0] : min[0]);
+        const double y = fit->y[k] * (double)(fit->y[k] > 0.0 ? max[1] : min[1]);
+        const double z = fit->z[k] * (double)(fit->z[k] > 0.0 ? max[2] : min[2]);
+        if (!(x + y + z + (double)radius <= reach->along[k]))
+            return 1;
+    }
+    return 0;
+}
+
+/* The spheres [first, first + count), a block at most. */
+static void survey_block(survey *s, const frame_sequence *sequence, const camera_directions *fit, uint32_t first,
+                         uint32_t count)
+{
+    static const particle_rules as_it_is = {.radius_scale = 1.0f};
+    const cgt_trajectory_frame *const f = &sequence->frame;
+    float radius[BLOCK], largest = 0.0f, min[3], max[3]; /* of the centres */
+    int is_drawable[BLOCK];
+    for (int c = 0; c < 3; c++) {
+        min[c] = INFINITY;
+        max[c] = -INFINITY;
+    }
+    cgt_particle_radii(sequence->rules ? sequence->rules : &as_it_is, f, first, count, radius);
+    for (uint32_t k = 0; k < count; k++) {
+        const float *const sphere = f->xyzr + 4 * (size_t)(first + k);
+        is_drawable[k] = finite_point(sphere) && isfinite(radius[k]) && radius[k] >= 0.0f;
+        if (!is_drawable[k])
+            continue;
+        s->drawable++;
+        bound_point(min, max, sphere, 0.0f);
+        bound_point(s->bounds_min, s->bounds_max, sphere, radius[k]);
+        largest = radius[k] > largest ? radius[k] : largest;
+        cgt_bulk_add(&s->bulk, f->number, first + k, f->id ? f->id[first + k] : first + k, sphere, radius[k]);
+    }
+    if (!may_reach_farther(&s->reach, fit, min, max, largest))
+        return;
+    for (uint32_t k = 0; k < count; k++)
+        if (is_drawable[k])
+            reach_point(s, fit, f->xyzr + 4 * (size_t)(first + k), radius[k]);
+}
+
+/* Vertices that no triangle uses are invisible and do not count. For the bulk a triangle is a cube around its
+ * bounds. */
+static void survey_triangle(survey *s, const cgt_trajectory_frame *frame, const camera_directions *fit, uint32_t i)
+{
+    const uint32_t *const index = frame->index + 3 * (size_t)i;
+    const float *vertex[3];
+    float centre[3], reach = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        vertex[k] = frame->position + 3 * (size_t)index[k];
+        if (!finite_point(vertex[k]))
+            return;
+    }
+    s->drawable++;
+    for (int k = 0; k < 3; k++) {
+        bound_point(s->bounds_min, s->bounds_max, vertex[k], 0.0f);
+        reach_point(s, fit, vertex[k], 0.0f);
+    }
+    for (int c = 0; c < 3; c++) {
+        const float low = fminf(vertex[0][c], fminf(vertex[1][c], vertex[2][c]));
+        const float high = fmaxf(vertex[0][c], fmaxf(vertex[1][c], vertex[2][c]));
+        centre[c] = 0.5f * low + 0.5f * high;
+        reach = fmaxf(reach, 0.5f * high - 0.5f * low);
+    }
+    cgt_bulk_add(&s->bulk, frame->number, i, i, centre, reach);
+}
+
+static void survey_names(survey *s, const cgt_trajectory_frame *frame, uint32_t i)
+{
+    const uint32_t id = frame->id ? frame->id[i] : i;
+    s->id_min = id < s->id_min ? id : s->id_min;
+    s->id_max = id > s->id_max ? id : s->id_max;
+    if (!frame->type)
+        return;
+    s->type_min = frame->type[i] < s->type_min ? frame->type[i] : s->type_min;
+    s->type_max = frame->type[i] > s->type_max ? frame->type[i] : s->type_max;
+}
+
+/* The range of the first formula, which is that of the colours, over the primitives [first, end). */
+static void survey_values(survey *s, const frame_sequence *sequence, uint32_t first, uint32_t end)
+{
+    double values[BLOCK];
+    for (; first < end; first += BLOCK) {
+        const uint32_t block = end - first < BLOCK ? end - first : BLOCK;
+        cgt_expression_values(sequence->formulas[0], first, block, values);
+        for (uint32_t i = 0; i < block; i++) {
+            if (!isfinite(values[i])) {
+                s->unknown_values++;
+                continue;
+            }
+            s->values++;
+            cgt_bulk_values_add(&s->value_samples, sequence->frame.number, first + i, values[i]);
+            s->value_min = fmin(s->value_min, values[i]);
+            s->value_max = fmax(s->value_max, values[i]);
+            if (values[i] > 0.0)
+                s->value_least = fmin(s->value_least, values[i]);
+        }
+    }
+}
+
+static void survey_kind(survey *s, const cgt_trajectory_frame *f, uint32_t i)
+{
+    if (f->type && f->type[i] < SURVEY_KINDS)
+        s->has_types[f->type[i]] = 1;
+    if (f->element)
+        s->has_elements[f->element[i]] = 1;
+}
+
+/* The types and elements of the spheres [first, end) that are shown. */
+static void survey_kinds(survey *s, const frame_sequence *sequence, uint32_t first, uint32_t end)
+{
+    const expression *const show = sequence->rules ? sequence->rules->show : NULL;
+    double shown[BLOCK];
+    for (; first < end; first += BLOCK) {
+        const uint32_t block = end - first < BLOCK ? end - first : BLOCK;
+        if (show)
+            cgt_expression_values(show, first, block, shown);
+        for (uint32_t i = 0; i < block; i++)
+            if (!show || (shown[i] != 0.0 && !isnan(shown[i])))
+                survey_kind(s, &sequence->frame, first + i);
+    }
+}
+
+/* The box, and how far its images move what is in it. */
+static void survey_box(survey *s, const frame_sequence *sequence, const camera_directions *fit)
+{
+    const cgt_trajectory_frame *f = &sequence->frame;
+    const int has_box = f->box_edge[0][0] != 0.0 || f->box_edge[1][1] != 0.0 || f->box_edge[2][2] != 0.0;
+    for (int corner = 0; corner < 8 && has_box; corner++) {
+        double at[3], moved[3] = {0.0, 0.0, 0.0};
+        for (int c = 0; c < 3; c++) {
+            at[c] = f->box_origin[c];
+            for (int e = 0; e < 3; e++) {
+                const double images = sequence->rules ? sequence->rules->images[e] : 1.0;
+                at[c] += corner >> e & 1 ? images * f->box_edge[e][c] : 0.0;
+                moved[c] += corner >> e & 1 ? (images - 1.0) * f->box_edge[e][c] : 0.0;
+            }
+            s->box_min[c] = fmin(s->box_min[c], at[c]);
+            s->box_max[c] = fmax(s->box_max[c], at[c]);
+            s->move_min[c] = fmin(s->move_min[c], moved[c]);
+            s->move_max[c] = fmax(s->move_max[c], moved[c]);
+        }
+        cgt_camera_reach_add(&s->box_reach, fit, at, 0.0);
+        cgt_camera_reach_add(&s->move_reach, fit, moved, 0.0);
+    }
+}
+
+static void survey_speeds(survey *s, const float *speed, uint32_t first, uint32_t end)
+{
+    for (uint32_t i = first; i < end; i++) {
+        uint32_t bits;
+        if (!isfinite(speed[i]))
+            continue;
+        memcpy(&bits, &speed[i], sizeof bits);
+        s->speed_bins[(bits & 0x7FFFFFFFu) >> 19]++;
+        s->speeds++;
+    }
+}
+
+/* Of a survey that is all zero: one takes 500 KB, of which threads without a piece touch little. */
+static void begin_survey(survey *s)
+{
+    s->id_min = s->type_min = UINT32_MAX;
+    s->value_min = s->value_least = INFINITY;
+    s->value_max = -INFINITY;
+    for (int c = 0; c < 3; c++) {
+        s->box_min[c] = INFINITY;
+        s->box_max[c] = -INFINITY;
+        s->bounds_min[c] = INFINITY;
+        s->bounds_max[c] = -INFINITY;
+    }
+    cgt_camera_reach_clear(&s->reach);
+    cgt_camera_reach_clear(&s->box_reach);
+    cgt_camera_reach_clear(&s->move_reach);
+}
+
+/* Adds another thread's survey of the same frames. */
+static void merge(survey *sum, const survey *part)
+{
+    sum->frames += part->frames;
+    sum->total = part->total < sum->total ? part->total : sum->total;
+    sum->is_cut |= part->is_cut;
+    sum->kind = part->frames ? part->kind : sum->kind;
+    sum->drawable += part->drawable;
+    sum->has_type |= part->has_type;
+    sum->id_min = part->id_min < sum->id_min ? part->id_min : sum->id_min;
+    sum->id_max = part->id_max > sum->id_max ? part->id_max : sum->id_max;
+    sum->type_min = part->type_min < sum->type_min ? part->type_min : sum->type_min;
+    sum->type_max = part->type_max > sum->type_max ? part->type_max : sum->type_max;
+    for (int c = 0; c < 3; c++) {
+        sum->bounds_min[c] = fminf(sum->bounds_min[c], part->bounds_min[c]);
+        sum->bounds_max[c] = fmaxf(sum->bounds_max[c], part->bounds_max[c]);
+    }
+    for (int c = 0; c < 3; c++) {
+        sum->box_min[c] = fmin(sum->box_min[c], part->box_min[c]);
+        sum->box_max[c] = fmax(sum->box_max[c], part->box_max[c]);
+        sum->boxless_steps[c] = fmaxf(sum->boxless_steps[c], part->boxless_steps[c]);
+        sum->move_min[c] = fmin(sum->move_min[c], part->move_min[c]);
+        sum->move_max[c] = fmax(sum->move_max[c], part->move_max[c]);
+    }
+    for (uint32_t k = 0; k < CAMERA_DIRECTIONS; k++) {
+        sum->reach.along[k] = fmax(sum->reach.along[k], part->reach.along[k]);
+        sum->box_reach.along[k] = fmax(sum->box_reach.along[k], part->box_reach.along[k]);
+        sum->move_reach.along[k] = fmax(sum->move_reach.along[k], part->move_reach.along[k]);
+    }
+    cgt_bulk_merge(&sum->bulk, &part->bulk);
+    sum->values += part->values;
+    sum->unknown_values += part->unknown_values;
+    cgt_bulk_values_merge(&sum->value_samples, &part->value_samples);
+    sum->value_min = fmin(sum->value_min, part->value_min);
+    sum->value_max = fmax(sum->value_max, part->value_max);
+    sum->value_least = fmin(sum->value_least, part->value_least);
+    sum->has_element |= part->has_element;
+    for (int kind = 0; kind < SURVEY_KINDS; kind++) {
+        sum->has_types[kind] |= part->has_types[kind];
+        sum->has_elements[kind] |= part->has_elements[kind];
+    }
+    sum->speeds += part->speeds;
+    for (int bin = 0; bin < SURVEY_BINS; bin++)
+        sum->speed_bins[bin] += part->speed_bins[bin];
+}
+
+/* ---- Threads ------------------------------------------------------------------------------------------------ */
+
+enum { PIECE_LEAST = 1 << 16 }; /* primitives of a thread, which take 1 ms; waking one takes some 50 us */
+
+/* The end of piece `index` of `count` things. */
+static uint32_t piece_end(const survey_team *team, uint32_t count, uint32_t index)
+{
+    return (uint32_t)((uint64_t)count * (index + 1) / team->pieces);
+}
+
+static const camera_directions *fit_of(const survey_team *team)
+{
+    static const camera_directions nothing;
+    return !team->fit ? &nothing : &team->fit[team->sequence->frame.kind == CGT_TRAJECTORY_TRIANGLES];
+}
+
+/* Looks at one piece of the frame's primitives, and of its speeds and values, which are one each sphere or vertex. */
+static void survey_piece(void *user, uint32_t index)
+{
+    const survey_team *const team = user;
+    const frame_sequence *const sequence = team->sequence;
+    const cgt_trajectory_frame *const frame = &sequence->frame;
+    survey *const s = index ? &team->others[index - 1] : team->first;
+    const uint32_t primitives = frame_primitives(frame);
+    const uint32_t begin = index ? piece_end(team, frame->count, index - 1) : 0;
+    const uint32_t end = piece_end(team, frame->count, index);
+    const uint32_t last = piece_end(team, primitives, index);
+    const uint32_t first = index ? piece_end(team, primitives, index - 1) : 0;
+    const camera_directions *const fit = fit_of(team);
+    for (uint32_t i = first; i < last; i++)
+        survey_names(s, frame, i);
+    for (uint32_t i = first; i < last && frame->kind == CGT_TRAJECTORY_TRIANGLES; i++)
+        survey_triangle(s, frame, fit, i);
+    for (uint32_t i = first; i < last && frame->kind != CGT_TRAJECTORY_TRIANGLES; i += BLOCK)
+        survey_block(s, sequence, fit, i, last - i < BLOCK ? last - i : BLOCK);
+    for (uint32_t i = begin; frame->element && !s->has_element && i < end; i++)
+        s->has_element = frame->element[i] != 0;
+    if (sequence->wants_kinds && frame->kind == CGT_TRAJECTORY_SPHERES)
+        survey_kinds(s, sequence, begin, end);
+    if (sequence->formula_count)
+        survey_values(s, sequence, begin, end);
+    if (sequence->speed)
+        survey_speeds(s, sequence->speed, begin, end);
+}
+
+void cgt_survey_look(survey_team *team)
+{
+    const cgt_trajectory_frame *const frame = &team->sequence->frame;
+    const uint32_t most = frame_primitives(frame) / PIECE_LEAST + 1;
+    team->first->frames++;
+    team->first->kind = frame->kind;
+    team->first->has_type |= frame->type != NULL;
+    survey_box(team->first, team->sequence, fit_of(team));
+    float steps[3] = {0.0f, 0.0f, 0.0f};
+    if (team->sequence->tracker)
+        cgt_speed_boxless_steps(team->sequence->tracker, steps);
+    for (int c = 0; c < 3; c++)
+        team->first->boxless_steps[c] = fmaxf(team->first->boxless_steps[c], steps[c]);
+    team->pieces = most < team->threads ? most : team->threads;
+    cgt_context_run_tasks(team->context, survey_piece, team, team->pieces);
+}
+
+/* Where there is no memory for more threads there is one. */
+void cgt_survey_begin(survey_team *team, const frame_sequence *sequence, const camera_directions *fit,
+                      cgt_context *context, survey *result)
+{
+    const uint32_t known = cgt_context_get_threads(context), threads = known ? known : 1;
+    *team = (survey_team){.sequence = sequence, .fit = fit, .first = result, .context = context, .threads = threads};
+    memset(result, 0, sizeof *result);
+    begin_survey(result);
+    team->others = team->threads > 1 ? calloc(team->threads - 1, sizeof *team->others) : NULL;
+    team->threads = team->others ? team->threads : 1;
+    for (uint32_t i = 0; i + 1 < team->threads; i++) {
+        begin_survey(&team->others[i]);
+        team->others[i].total = UINT64_MAX; /* which is the first one's */
+    }
+}
+
+void cgt_survey_end(survey_team *team)
+{
+    for (uint32_t i = 0; i + 1 < team->threads; i++)
+        merge(team->first, &team->others[i]);
+    free(team->others);
+    cgt_bulk_sort(&team->first->bulk);
+    cgt_bulk_values_sort(&team->first->value_samples);
+}
+
+/* ---- Ranges ------------------------------------------------------------------------------------------------------- */
+
+float cgt_survey_speed_quantile(const survey *s, double share)
+{
+    uint64_t below = 0;
+    for (uint32_t bin = 0; bin < SURVEY_BINS; bin++) {
+        below += s->speed_bins[bin];
+        if (below == 0 || (double)below < share * (double)s->speeds)
+            continue;
+        const uint32_t bits = ((bin + 1) << 19) - 1; /* the largest float of the bin */
+        float speed;
+        memcpy(&speed, &bits, sizeof speed);
+        return bin ? speed : 0.0f; /* bin 0: zero and the smallest denormals */
+    }
+    return 0.0f;
+}
+
+int cgt_survey_value_range(const survey *s, int logarithmic, double *min, double *max)
+{
+    const int scaled = logarithmic && isfinite(s->value_least);
+    const int known = cgt_bulk_values_range(&s->value_samples, scaled ? 0.0 : -INFINITY, min, max);
+    if (known && *min < *max)
+        return 1;
+    *min = scaled ? s->value_least : s->value_min;
+    *max = s->value_max;
+    return 0;
+}

@@ -1,0 +1,53 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What lies over a picture: title, time, colour bar or legend, axes. */
+#ifndef OVERLAY_H
+#define OVERLAY_H
+
+#include <stdint.h>
+
+#include "text/canvas.h"
+#include "color/coloring.h"
+#include "text/text.h"
+
+enum { OVERLAY_MOST_KINDS = 24 }; /* of a legend: a last line says how many more there are */
+
+/* A line of a legend: a swatch and a name. */
+typedef struct overlay_kind {
+    float color[3]; /* linear */
+    char name[64];
+} overlay_kind;
+
+typedef struct overlay {
+    text_font *font;   /* NULL: there is no text */
+    float size;        /* of the font, in pixels */
+    float color[3];    /* linear, of text and ticks */
+    const char *title; /* NULL: none */
+    const char *time;  /* "t = {time}", "{step}", "{frame}"; NULL: none */
+    const char *bar;   /* title of the colour bar, "" for none; NULL: no bar */
+    const coloring *coloring;
+    const char *legend;        /* title of the legend, "" for none; NULL: no legend */
+    const overlay_kind *kinds; /* of the legend, from above */
+    uint32_t kind_count;
+    int axes;
+} overlay;
+
+/* A frame's numbers, and the directions of its camera: unit vectors to the right, up, and into the picture. */
+typedef struct overlay_frame {
+    uint64_t number;
+    int64_t step;
+    double time; /* NaN: unknown, {time} is the step */
+    float right[3], up[3], forward[3];
+} overlay_frame;
+
+void cgt_overlay_draw(const overlay *o, const canvas *c, const overlay_frame *frame);
+
+/* Replaces {time}, {step} and {frame}; text is cut to size. */
+void cgt_overlay_format(const char *format, const overlay_frame *frame, char *text, size_t size);
+
+/* Ticks between min and max, min < max, rising: multiples of 1, 2 or 5 times a power of ten; with logarithmic, 0 < min,
+ * such numbers themselves. Returns how many, at most `most`, which is 2 or more. */
+uint32_t cgt_overlay_ticks(double min, double max, int logarithmic, double *ticks, uint32_t most);
+
+#endif

@@ -1,0 +1,155 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Text on pictures; see text.h. */
+#include "text/text.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#ifdef CGT_HAVE_FREETYPE
+
+#include <freetype/freetype.h>
+
+struct text_font {
+    FT_Library library;
+    FT_Face face;
+};
+
+static FT_Error open_face(text_font *font, const char *path)
+{
+    static const char *const places[] = {
+        "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+        "/usr/share/fonts/TTF/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf",
+        "/usr/local/share/fonts/dejavu/DejaVuSans.ttf"};
+    if (path)
+        return FT_New_Face(font->library, path, 0, &font->face);
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)
+        if (FT_New_Face(font->library, places[i], 0, &font->face) == 0)
+            return 0;
+    return 1;
+}
+
+text_font *cgt_text_open(const char *path, float pixels, char *error, size_t error_size)
+{
+    text_font *font = calloc(1, sizeof *font);
+    if (!font || FT_Init_FreeType(&font->library)) {
+        snprintf(error, error_size, "out of memory for a font");
+        free(font);
+        return NULL;
+    }
+    if (open_face(font, path)) {
+        if (path)
+            snprintf(error, error_size, "%s: this is no font that can be read", path);
+        else
+            snprintf(
+                error, error_size,
+                "text needs a font, and DejaVu Sans is not where distributions put it (package fonts-dejavu-core): "
+                "give one by --font");
+    } else if (FT_Set_Char_Size(font->face, (FT_F26Dot6)(64.0f * pixels), 0, 72, 72)) {
+        snprintf(error, error_size, "%s: the font has no size of %g pixels", path ? path : "DejaVu Sans",
+                 (double)pixels);
+    } else {
+        return font;
+    }
+    cgt_text_close(font);
+    return NULL;
+}
+
+void cgt_text_close(text_font *font)
+{
+    if (!font)
+        return;
+    if (font->face)
+        FT_Done_Face(font->face);
+    FT_Done_FreeType(font->library);
+    free(font);
+}
+
+/* The next character of UTF-8; *text moves behind it. Returns 0 at the end. */
+static uint32_t next_character(const char **text)
+{
+    const unsigned char *t = (const unsigned char *)*text;
+    const int more = t[0] >= 0xf0 ? 3 : t[0] >= 0xe0 ? 2 : t[0] >= 0xc0 ? 1 : 0;
+    uint32_t code = more ? t[0] & (0x3fu >> more) : t[0];
+    if (!t[0])
+        return 0;
+    for (int i = 1; i <= more; i++) {
+        if ((t[i] & 0xc0) != 0x80) { /* cut off, or another encoding */
+            *text += 1;
+            return 0xfffd;
+        }
+        code = code << 6 | (t[i] & 0x3fu);
+    }
+    *text += 1 + more;
+    return t[0] >= 0x80 && !more ? 0xfffd : code;
+}
+
+float cgt_text_width(const text_font *font, const char *utf8)
+{
+    float width = 0.0f;
+    uint32_t code;
+    while ((code = next_character(&utf8)) != 0)
+        if (FT_Load_Char(font->face, code, FT_LOAD_TARGET_LIGHT) == 0)
+            width += (float)font->face->glyph->advance.x / 64.0f;
+    return width;
+}
+
+static void draw_bitmap(const canvas *c, FT_GlyphSlot glyph, int32_t x, int32_t y, const float color[3])
+{
+    const FT_Bitmap *b = &glyph->bitmap;
+    if (b->pixel_mode != FT_PIXEL_MODE_GRAY)
+        return; /* a font of bitmaps */
+    /* In linear light dark strokes look thinner than light ones, and small texts pale. */
+    const int is_dark = color[0] + color[1] + color[2] < 0.6f;
+    for (uint32_t j = 0; j < b->rows; j++)
+        for (uint32_t i = 0; i < b->width; i++) {
+            const float share = (float)b->buffer[(ptrdiff_t)j * b->pitch + (ptrdiff_t)i] / 255.0f;
+            cgt_canvas_blend(c, x + glyph->bitmap_left + (int32_t)i, y - glyph->bitmap_top + (int32_t)j, color,
+                             is_dark ? sqrtf(share) : share);
+        }
+}
+
+void cgt_text_draw(const text_font *font, const canvas *c, float x, float y, const char *utf8, const float color[3])
+{
+    uint32_t code;
+    while ((code = next_character(&utf8)) != 0) {
+        if (FT_Load_Char(font->face, code, FT_LOAD_RENDER | FT_LOAD_TARGET_LIGHT) != 0)
+            continue;
+        draw_bitmap(c, font->face->glyph, (int32_t)(x + 0.5f), (int32_t)(y + 0.5f), color);
+        x += (float)font->face->glyph->advance.x / 64.0f;
+    }
+}
+
+#else
+
+text_font *cgt_text_open(const char *path, float pixels, char *error, size_t error_size)
+{
+    (void)path;
+    (void)pixels;
+    snprintf(error, error_size, "this program was built without FreeType, and cannot write text on pictures");
+    return NULL;
+}
+
+void cgt_text_close(text_font *font) { (void)font; }
+
+float cgt_text_width(const text_font *font, const char *utf8)
+{
+    (void)font;
+    (void)utf8;
+    return 0.0f;
+}
+
+void cgt_text_draw(const text_font *font, const canvas *c, float x, float y, const char *utf8, const float color[3])
+{
+    (void)font;
+    (void)c;
+    (void)x;
+    (void)y;
+    (void)utf8;
+    (void)color;
+}
+
+#endif

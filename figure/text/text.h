@@ -1,0 +1,25 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Text on pictures, by FreeType. In builds without it cgt_text_open fails with a sentence. */
+#ifndef TEXT_H
+#define TEXT_H
+
+#include <stddef.h>
+
+#include "text/canvas.h"
+
+typedef struct text_font text_font;
+
+/* Opens a font file; path NULL: DejaVu Sans where distributions put it. pixels: size of the font, 1 to 1000. Returns
+ * NULL with a sentence in error. A font is for one thread at a time. */
+text_font *cgt_text_open(const char *path, float pixels, char *error, size_t error_size);
+void cgt_text_close(text_font *font); /* NULL is ignored */
+
+/* Width of a text in UTF-8, in pixels. What is no UTF-8 counts as one unknown character a byte. */
+float cgt_text_width(const text_font *font, const char *utf8);
+
+/* Draws a text from x on, with its baseline at y; color is linear. */
+void cgt_text_draw(const text_font *font, const canvas *c, float x, float y, const char *utf8, const float color[3]);
+
+#endif
