@@ -285,7 +285,7 @@ static int follow(unwrapping *u, const periodic_box *box, const cgt_trajectory_f
     else if (cgt_id_match_prepare(&past->spheres, f->id, f->count))
         return -1;
     for (uint32_t i = 0; i < f->count && past->is_there; i++) {
-        const uint32_t k = cgt_id_match_find(&past->spheres, f->id, f->count, i);
+        const uint32_t k = id_match_find(&past->spheres, f->id, f->count, i);
         memset(u->move[i], 0, sizeof u->move[i]);
         share_of(box, f->xyzr + 4 * (size_t)i, share);
         if (k != UINT32_MAX)

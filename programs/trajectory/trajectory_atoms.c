@@ -3,6 +3,7 @@
  *
  * Residues and alternate places. */
 #include "trajectory/trajectory_atoms.h"
+#include "data/residue_names.h"
 #include "trajectory/molecule/residues.h"
 #include "trajectory/trajectory_sites.h"
 
