@@ -29,6 +29,7 @@
  *   vasp           POSCAR, CONTCAR, XDATCAR: elements, cell, positions in fractions or lengths
  *   vtk            legacy VTK points: POLYDATA, UNSTRUCTURED_GRID; triangles where all cells are faces; one frame a
  *                  file
+ *   psf, prmtop    topologies alone: names, charges, masses, bonds
  *   frames         the project's own binary, below; triangles, too
  *
  * Meshes are .obj, .ply, .gltf, .dae, .x, .ifc and whatever else assimp reads: all meshes of the file as one, moved by
