@@ -102,7 +102,6 @@ struct cgt_trajectory {
     trajectory_columns columns;           /* of the last frame */
     struct trajectory_topology *topology; /* NULL: none */
     uint32_t sites;                       /* of the frame: what is no atom */
-    int had_sites;                        /* some frame so far */
     bond_list bonds;                      /* of the last frame, where some were guessed */
     uint64_t next;                        /* number of the next frame */
     int failed;                           /* every call repeats the error in message */

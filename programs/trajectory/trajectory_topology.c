@@ -156,7 +156,6 @@ int topology_complete(cgt_trajectory *t, cgt_trajectory_frame *frame)
         t->sites = 0;
         for (size_t i = 0; i < frame->count; i++)
             t->sites += t->store.site[i] = p->file->store.site[p->index[i]];
-        t->had_sites = 1;
         sites_set_radii(t, frame);
     }
     frame->element = takes_elements ? t->store.element : frame->element;
