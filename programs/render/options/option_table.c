@@ -91,8 +91,8 @@ static const option_row rows[] = {
     {"wrapped", 0, NULL, "Prefer coordinates wrapped into the box where a file has both kinds",
      AT(BOOL, reading.wrapped)},
     {"unwrap", 0, NULL,
-     "Let spheres go on beyond the periodic box, by image flags (ix, iy, iz) where the file has them, else by following "
-     "them from frame to frame; in the first one molecules are put together by bonds",
+     "Let spheres go on beyond the periodic box, by image flags (ix, iy, iz) where the file has them, else by "
+     "following them from frame to frame; in the first one molecules are put together by bonds",
      FLAG(unwrap)},
     {"whole", 0, NULL, "Put molecules together that the periodic box cuts, by bonds, each with its middle in the box",
      FLAG(whole)},

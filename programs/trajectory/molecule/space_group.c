@@ -1,8 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Hall symbols: S. R. Hall, "Space-group notation with an explicit origin", Acta Cryst. A37 (1981), 517-525, in the form
- * of International Tables B, A1.4.2.3. A symbol names a lattice and up to four operations that generate the group. */
+ * Hall symbols: S. R. Hall, "Space-group notation with an explicit origin", Acta Cryst. A37 (1981), 517-525, in the
+ * form of International Tables B, A1.4.2.3. A symbol names a lattice and up to four operations that generate the
+ * group. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/molecule/space_group.h"
 

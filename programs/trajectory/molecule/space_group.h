@@ -11,8 +11,8 @@
  * symbol cannot be read. */
 uint32_t space_group_of_hall(const char *hall, cif_operation operation[CRYSTAL_MOST_OPERATIONS]);
 
-/* Makes the operations of a group by its name, such as "P 21/c", "Fm-3m", "R -3 c :H", or its number, in the setting that
- * the cell has. 0: it is not known, or no single setting of it fits, as where two origins are usual. */
+/* Makes the operations of a group by its name, such as "P 21/c", "Fm-3m", "R -3 c :H", or its number, in the setting
+ * that the cell has. 0: it is not known, or no single setting of it fits, as where two origins are usual. */
 uint32_t space_group_of_name(const char *given, const double edge[3][3],
                              cif_operation operation[CRYSTAL_MOST_OPERATIONS]);
 

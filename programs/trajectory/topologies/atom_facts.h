@@ -32,8 +32,8 @@ int atom_facts_begin(cgt_trajectory *t, atom_facts *f);
 /* Stores atom i. Returns 1 or -1. */
 int atom_facts_add(cgt_trajectory *t, atom_facts *f, uint32_t i, const atom_fact *a);
 
-/* Completes the frame: bonds between ids become those of atoms. Returns 1 or -1: there are no atoms, or a bond is to one
- * that is not there. */
+/* Completes the frame: bonds between ids become those of atoms. Returns 1 or -1: there are no atoms, or a bond is to
+ * one that is not there. */
 int atom_facts_finish(cgt_trajectory *t, atom_facts *f, cgt_trajectory_frame *frame);
 void atom_facts_free(atom_facts *f);
 

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * PSF of CHARMM, X-PLOR and NAMD, which tells what atoms are and has no places: sections begin with a count and a
- * keyword, "8 !NATOM", and end by that count. Of each atom there are a number, segment, residue, names, charge and mass;
- * bonds are pairs of numbers. Other sections are passed over. */
+ * keyword, "8 !NATOM", and end by that count. Of each atom there are a number, segment, residue, names, charge and
+ * mass; bonds are pairs of numbers. Other sections are passed over. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/topologies/atom_facts.h"
 
