@@ -81,7 +81,7 @@ static size_t take_width(text_span line)
 /* Cuts the lines of a section into fields. */
 static int take_fields(cgt_trajectory *t, prmtop_list *list, size_t width, text_span line)
 {
-    while (line.end > line.begin && (line.end[-1] == '\r' || (list != NULL && line.end[-1] == ' ')))
+    while (line.end > line.begin && (line.end[-1] == '\r' || line.end[-1] == ' '))
         line.end--;
     for (size_t at = 0; at < text_length(line); at += width)
         if (add_field(t, list, field_at(line, at, width)) < 0)
