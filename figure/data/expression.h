@@ -6,7 +6,7 @@
  *   < <= > >= == != && || !, whose results are 0 and 1; and, or, not, which is applied after comparisons
  *   sqrt abs exp log log10 sin cos tan floor ceil sign, min(a, b), max(a, b), mod(a, b), if(condition, a, b); pi
  *   x y z radius id type element speed step time index, and every column of the file under its name, which may contain
- *   digits, _ . : [ ] after its first letter
+ *   digits, _ . : [ ] after its first letter; site is 0 where no column has it
  *   column == word, column != word: of a column of words, such as chain == "A" or name != CA, and of element, such as
  * element == O. Quotes, single or double, may be left out where the word is like a name and no column has it. "" is
  * what atoms without a word have. protein, water, backbone: 1 for atoms of such residues, by the columns resname and

@@ -89,6 +89,10 @@ static int bind_name(expression *e, uint32_t i, const cgt_trajectory_frame *fram
         e->sources[i] = (expression_source){.value = column->value, .stride = 1};
         return 0;
     }
+    if (!column && strcmp(e->names[i], "site") == 0) { /* frames without sites have no such column */
+        e->sources[i] = (expression_source){.stride = 1};
+        return 0;
+    }
     const char *const list = list_of(e, i);
     list_columns(frame, columns, sizeof columns);
     return refuse(frame, error, size, "has no column \"%s\"%s%s, but %s", e->names[i],

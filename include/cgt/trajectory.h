@@ -29,6 +29,7 @@
  *   vasp           POSCAR, CONTCAR, XDATCAR: elements, cell, positions in fractions or lengths
  *   vtk            legacy VTK points: POLYDATA, UNSTRUCTURED_GRID; triangles where all cells are faces; one frame a
  *                  file
+ *   psf, prmtop    topologies alone: names, charges, masses, bonds
  *   frames         the project's own binary, below; triangles, too
  *
  * Meshes are .obj, .ply, .gltf, .dae, .x, .ifc and whatever else assimp reads: all meshes of the file as one, moved by
@@ -97,8 +98,8 @@ typedef struct cgt_trajectory_options {
      * bond_source of the frame tells. false (default): those that are listed. */
     bool all_bonds;
     /* Frames have atoms alone: spheres that are none by their names, residues or masses (virtual sites, lone pairs,
-     * dummies, ghosts) are left out, and a warning counts them. false (default): they are there, small, and have 1 in the
-     * column site. */
+     * dummies, ghosts) are left out, and a warning counts them. false (default): they are there, small, and have 1 in
+     * the column site, which frames without them do not have. */
     bool leave_out_sites;
     bool no_limit; /* reads files that unpack or expand to more than 1 GiB and 500 times their size */
     /* `origin` is subtracted from all places and boxes, in double, before they are rounded to float; false (default):

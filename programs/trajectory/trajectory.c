@@ -256,7 +256,6 @@ static void forget_frames(cgt_trajectory *t)
     t->next = 0;
     t->failed = 0;
     t->guessed = 0;
-    t->had_sites = 0;
     columns_forget_words(&t->columns);
     if (t->format->keeps_state)
         return;

@@ -271,11 +271,9 @@ static int add_fields(cgt_trajectory *t, const cgt_trajectory_frame *f)
         add_vectors(t, velocities, f->velocity, 3, f->count, nowhere) < 0 ||
         add_whole(t, "id", f->id, NULL, f->count) < 0 || add_whole(t, "type", f->type, NULL, f->count) < 0)
         return -1;
-    if (t->had_sites && t->sites == 0)
-        memset(t->store.site, 0, f->count);
     return add_whole(t, "element", NULL, f->element, f->count) < 0
                ? -1
-               : add_whole(t, "site", NULL, t->had_sites ? t->store.site : NULL, f->count);
+               : add_whole(t, "site", NULL, t->sites > 0 ? t->store.site : NULL, f->count);
 }
 
 int columns_finish(cgt_trajectory *t, cgt_trajectory_frame *frame)

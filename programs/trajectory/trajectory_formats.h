@@ -23,6 +23,8 @@
     NEXT(gsd, "gsd", "", ".gsd", "")                                                                                   \
     NEXT(vasp, "vasp", "poscar, contcar, xdatcar", ".vasp", ".poscar, .contcar, .xdatcar")                             \
     NEXT(vtk, "vtk", "", ".vtk", "")                                                                                   \
+    NEXT(psf, "psf", "", ".psf", "")                                                                                   \
+    NEXT(prmtop, "prmtop", "parm7", ".prmtop", ".parm7")                                                               \
     NEXT(frames, "frames", "", ".frames", "")
 
 /* For help and messages: "lammps, lammps-binary, ..." and ".lammpstrj, .dump, ...". */

@@ -63,12 +63,13 @@ typedef enum trajectory_doubt {
 /* A reader: what differs from file to file. The readers of spheres are listed in trajectory_formats.h. A function
  * returns 1 done, 0 end of the file, -1 error through trajectory_fail; what is not set is as the comment says. */
 typedef struct trajectory_format {
-    int is_series;   /* several files may follow each other in a run */
-    int lists_some;  /* bonds that it lists may be a part of all; else they are all, where there are any */
-    int is_followed; /* may be read while it is written */
-    int is_binary;   /* it reads t->file, not lines alone */
-    int keeps_state; /* t->state stays when rewinding, and with it the triangles of all frames: begin sets the rest */
-    float unit;      /* an Angstrom in the file's unit; 0: the same */
+    int is_series;    /* several files may follow each other in a run */
+    int lacks_places; /* it tells what atoms are, and is read as a topology alone */
+    int lists_some;   /* bonds that it lists may be a part of all; else they are all, where there are any */
+    int is_followed;  /* may be read while it is written */
+    int is_binary;    /* it reads t->file, not lines alone */
+    int keeps_state;  /* t->state stays when rewinding, and with it the triangles of all frames: begin sets the rest */
+    float unit;       /* an Angstrom in the file's unit; 0: the same */
     /* Bytes of the format's own state, t->state: zero at first and after rewinding; it stays from file to file of a
      * series, and from frame to frame. A frame may take from it what the file says of all frames, and the numbers of
      * names, which must be the same whether the frames before it were read or skipped; nothing else. */
@@ -85,8 +86,9 @@ typedef struct trajectory_format {
 
 struct cgt_trajectory {
     const trajectory_format *format;
-    int is_named; /* the options name the format */
-    int is_open;  /* else all calls repeat why it could not be opened */
+    int is_named;    /* the options name the format */
+    int is_topology; /* of another file */
+    int is_open;     /* else all calls repeat why it could not be opened */
     trajectory_input input;
     FILE *file;   /* the input's stream */
     char **paths; /* of the series, path_count of them */
@@ -100,7 +102,6 @@ struct cgt_trajectory {
     trajectory_columns columns;           /* of the last frame */
     struct trajectory_topology *topology; /* NULL: none */
     uint32_t sites;                       /* of the frame: what is no atom */
-    int had_sites;                        /* some frame so far */
     bond_list bonds;                      /* of the last frame, where some were guessed */
     uint64_t next;                        /* number of the next frame */
     int failed;                           /* every call repeats the error in message */
@@ -119,6 +120,9 @@ struct cgt_trajectory {
 #define TRAJECTORY_DECLARE(format, name, names, told, known) extern const trajectory_format trajectory_format_##format;
 TRAJECTORY_READERS(TRAJECTORY_DECLARE, TRAJECTORY_DECLARE)
 extern const trajectory_format trajectory_format_mesh; /* without assimp: refuses meshes */
+
+/* Opens the topology of another file. */
+cgt_result trajectory_open_topology(const char *path, const cgt_trajectory_options *options, cgt_trajectory **t);
 
 /* Opens a file of the series in place of the one that is open. Returns 1 or -1. */
 int trajectory_open_file(cgt_trajectory *t, size_t number);

@@ -186,6 +186,8 @@ int trajectory_open_file(cgt_trajectory *t, size_t number)
         return -1;
     if (t->file == NULL && t->format->is_binary)
         return trajectory_fail(t, 0, "on this system files of this format must be whole, and no pipes");
+    if (t->format->lacks_places && !t->is_topology)
+        return trajectory_fail(t, 0, "files of this format have no positions: give it as the topology of a trajectory");
     t->text.file = t->file;
     t->text.read_some = t->input.plain ? NULL : trajectory_input_read;
     t->text.input = &t->input;
@@ -265,17 +267,29 @@ static int open_series(cgt_trajectory *t, const char *const *paths, size_t count
                                                                                                                   : -1;
 }
 
-cgt_result cgt_trajectory_open_series(const char *const *paths, size_t count, const cgt_trajectory_options *options,
-                                      cgt_trajectory **made)
+static cgt_result open_all(const char *const *paths, size_t count, const cgt_trajectory_options *options,
+                           int is_topology, cgt_trajectory **made)
 {
     cgt_trajectory *t = *made = calloc(1, sizeof *t);
     if (t == NULL)
         return CGT_ERROR_OUT_OF_MEMORY;
     t->input.descriptor = -1;
+    t->is_topology = is_topology;
     const int status = open_series(t, paths, count, options);
     t->is_open = status > 0;
     t->failed |= status < 0;
     return trajectory_result(t, status);
+}
+
+cgt_result cgt_trajectory_open_series(const char *const *paths, size_t count, const cgt_trajectory_options *options,
+                                      cgt_trajectory **made)
+{
+    return open_all(paths, count, options, 0, made);
+}
+
+cgt_result trajectory_open_topology(const char *path, const cgt_trajectory_options *options, cgt_trajectory **made)
+{
+    return open_all(&path, 1, options, 1, made);
 }
 
 cgt_result cgt_trajectory_open(const char *path, const cgt_trajectory_options *options, cgt_trajectory **made)

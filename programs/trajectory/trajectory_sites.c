@@ -105,7 +105,6 @@ void sites_finish(cgt_trajectory *t, cgt_trajectory_frame *frame)
     if (atoms == 0)
         frame->element = NULL;
     sites_set_radii(t, frame);
-    t->had_sites |= t->sites > 0;
 }
 
 void sites_set_radii(cgt_trajectory *t, const cgt_trajectory_frame *frame)

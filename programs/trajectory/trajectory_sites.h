@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What is no atom: sites of charges without mass, lone pairs, Drude particles, dummies, ghosts, vacancies. Readers store
- * one of the marks below in place of an element; here they become the column `site`, or are left out. */
+ * What is no atom: sites of charges without mass, lone pairs, Drude particles, dummies, ghosts, vacancies. Readers
+ * store one of the marks below in place of an element; here they become the column `site`, or are left out. */
 #ifndef TRAJECTORY_SITES_H
 #define TRAJECTORY_SITES_H
 

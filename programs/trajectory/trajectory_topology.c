@@ -39,7 +39,7 @@ cgt_result topology_open(cgt_trajectory *t, const char *path, const cgt_trajecto
     trajectory_topology *const p = t->topology = calloc(1, sizeof *p);
     if (p == NULL)
         return trajectory_result(t, trajectory_refuse(t, path, CGT_ERROR_OUT_OF_MEMORY, "not enough memory"));
-    const cgt_result result = cgt_trajectory_open(path, &reading, &p->file);
+    const cgt_result result = trajectory_open_topology(path, &reading, &p->file);
     return result == CGT_OK ? read_first(t, p, path) : tell(t, p, result);
 }
 
@@ -156,7 +156,6 @@ int topology_complete(cgt_trajectory *t, cgt_trajectory_frame *frame)
         t->sites = 0;
         for (size_t i = 0; i < frame->count; i++)
             t->sites += t->store.site[i] = p->file->store.site[p->index[i]];
-        t->had_sites = 1;
         sites_set_radii(t, frame);
     }
     frame->element = takes_elements ? t->store.element : frame->element;

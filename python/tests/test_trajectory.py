@@ -146,6 +146,18 @@ def test_every_format_is_read(tmp_path):
         assert cgt.Scene().add(frame.geometry()) == 0
 
 
+def test_bonds_and_sites_that_files_do_not_list(tmp_path):
+    path = tmp_path / "water.xyz"
+    path.write_text("4\n\nO 0 0 0\nH 0.96 0 0\nH -0.24 0.93 0\nMW 0.1 0.1 0\n")
+    frame = cgt.read(path, columns=["site"]).read()
+    assert frame.bonds is None and frame.columns["site"].tolist() == [0, 0, 0, 1] and frame.radii[3] == 0.5
+    with pytest.warns(UserWarning, match="1 of 4 spheres are no atoms"):
+        frame = cgt.read(path, all_bonds=True, leave_out_sites=True).read()
+    assert len(frame) == 3 and frame.bonds.tolist() == [[0, 1], [0, 2]]
+    path.write_text("1\n\nO 0 0 0\n")
+    assert cgt.read(path, all_bonds=True).read().bonds.shape == (0, 2)
+
+
 def frames_file():
     """A .frames file of one sphere, as trajectory.h describes it."""
     return b"CGTFRAM1" + struct.pack("<4I", 1, 1, 0, 0) + struct.pack("<I4f", 1, 1, 2, 3, 0.5)

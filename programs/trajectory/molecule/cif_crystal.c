@@ -5,6 +5,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/molecule/cif_crystal.h"
 #include "trajectory/molecule/molecule_atom.h"
+#include "trajectory/molecule/space_group.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -20,7 +21,8 @@ void cif_crystal_clear(cif_crystal *c)
 {
     memset(c->length, 0, sizeof c->length);
     memset(c->angle, 0, sizeof c->angle);
-    c->group[0] = c->unread[0] = '\0';
+    c->group[0] = c->hall[0] = c->number[0] = c->unread[0] = '\0';
+    c->is_magnetic = 0;
     c->operations = c->centrings = 0;
     c->has_cell = 0;
 }
@@ -66,10 +68,14 @@ void cif_crystal_take(cif_crystal *c, const char *tag, text_span value)
         if (strcmp(tag, numbers[i]) == 0 && !cif_number(value, number))
             *number = NAN;
     }
-    if (c->group[0] == '\0' && names_group(tag))
-        snprintf(c->group, sizeof c->group, "%.*s", (int)text_length(value), value.begin);
-    else
+    if (names_group(tag)) {
+        char *const to = has(tag, "hall") ? c->hall : has(tag, "number") ? c->number : c->group;
+        c->is_magnetic |= has(tag, "magn");
+        if (*to == '\0')
+            snprintf(to, sizeof c->group, "%.*s", (int)text_length(value), value.begin);
+    } else {
         cif_crystal_note(c, tag);
+    }
 }
 
 int cif_crystal_cell(const cif_crystal *c, double edge[3][3]) { return molecule_cell(c->length, c->angle, edge); }
@@ -129,8 +135,7 @@ static double determinant(const double m[3][3])
 static const char wrong[] = "not an operation of symmetry, such as -x, y+1/2, z";
 static const char too_many[] = "more operations of symmetry than the 192 that a space group may have";
 
-/* Reads an operation; a fourth part, +1 or -1, is what it does to magnetic moments. Returns NULL, or a sentence. */
-static const char *read_operation(cif_operation *o, text_span text)
+const char *cif_crystal_read_operation(cif_operation *o, text_span text)
 {
     int is_magnetic = 0;
     memset(o, 0, sizeof *o);
@@ -159,7 +164,7 @@ const char *cif_crystal_add_operation(cif_crystal *c, text_span text)
 {
     if (c->operations == CRYSTAL_MOST_OPERATIONS)
         return too_many;
-    const char *const reason = read_operation(&c->operation[c->operations], text);
+    const char *const reason = cif_crystal_read_operation(&c->operation[c->operations], text);
     c->operations += reason == NULL;
     return reason;
 }
@@ -169,7 +174,7 @@ const char *cif_crystal_add_centring(cif_crystal *c, text_span text)
     cif_operation o;
     if (c->centrings == CRYSTAL_MOST_CENTRINGS)
         return "more centrings than a cell may have";
-    const char *const reason = read_operation(&o, text);
+    const char *const reason = cif_crystal_read_operation(&o, text);
     memcpy(c->centring[c->centrings], o.shift, sizeof o.shift);
     c->centrings += reason == NULL;
     return reason;
@@ -205,7 +210,7 @@ static int is_triclinic(const char *group)
         if (*p != ' ' && *p != '_' && *p != '\'')
             word[length++] = *p;
     word[length] = '\0';
-    return strcasecmp(word, "P1") == 0 || strcmp(word, "1") == 0 || strcmp(word, "1.1") == 0 ||
+    return *word == '\0' || strcasecmp(word, "P1") == 0 || strcmp(word, "1") == 0 || strcmp(word, "1.1") == 0 ||
            strcmp(word, "P1.1") == 0;
 }
 
@@ -213,10 +218,25 @@ int cif_crystal_is_listed(const cif_crystal *c, const char **what)
 {
     const double(*const turn)[3] = c->operation[0].turn;
     const double trace = turn[0][0] + turn[1][1] + turn[2][2];
-    *what = c->group[0] != '\0' ? c->group : c->unread;
-    if ((c->group[0] == '\0' || is_triclinic(c->group)) && c->unread[0] == '\0')
+    *what = c->group[0] != '\0'    ? c->group
+            : c->hall[0] != '\0'   ? c->hall
+            : c->number[0] != '\0' ? c->number
+                                   : c->unread;
+    if (is_triclinic(*what) && c->unread[0] == '\0')
         return 1;
     return c->operations > 1 || (c->operations == 1 && trace < 2.5);
+}
+
+int cif_crystal_apply_group(cif_crystal *c, const double edge[3][3])
+{
+    if (c->operations > 0 || c->is_magnetic || c->unread[0] != '\0')
+        return 0;
+    c->operations = c->hall[0] != '\0' ? space_group_of_hall(c->hall, c->operation) : 0;
+    if (c->operations == 0 && c->group[0] != '\0')
+        c->operations = space_group_of_name(c->group, edge, c->operation);
+    if (c->operations == 0 && c->number[0] != '\0')
+        c->operations = space_group_of_name(c->number, edge, c->operation);
+    return c->operations > 0;
 }
 
 /* ---- Images ------------------------------------------------------------------------------------------------- */
@@ -275,6 +295,19 @@ static uint32_t find_images(const cif_crystal *c, const double edge[3][3], const
         images += !is_known;
     }
     return images;
+}
+
+int cif_crystal_lists_images(const cgt_trajectory *t, const cif_crystal *c, const double edge[3][3], uint32_t count)
+{
+    double image[CRYSTAL_MOST_OPERATIONS + 1][3];
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t images = find_images(c, edge, c->place[i], image);
+        for (size_t j = 0; j < count; j++)
+            for (uint32_t k = 1; k < images && j != i && t->store.element[i] == t->store.element[j]; k++)
+                if (are_same(edge, image[k], c->place[j]))
+                    return 1;
+    }
+    return 0;
 }
 
 static void store_image(cgt_trajectory *t, size_t from, size_t to, const double position[3], const int *slot, int slots)

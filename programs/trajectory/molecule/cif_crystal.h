@@ -17,9 +17,10 @@ typedef struct cif_operation {
 
 typedef struct cif_crystal {
     double length[3], angle[3];
-    int has_cell;    /* some of them are given */
-    char group[32];  /* the space group's name or number, "" where none is given */
-    char unread[64]; /* a tag that tells of symmetry, and is not read; "": none */
+    int has_cell;                         /* some of them are given */
+    char group[64], hall[64], number[64]; /* the space group by names and number, "" where none is given */
+    int is_magnetic;                      /* it is */
+    char unread[64];                      /* a tag that tells of symmetry, and is not read; "": none */
     uint32_t operations, centrings;
     double centring[CRYSTAL_MOST_CENTRINGS][3];
     cif_operation operation[CRYSTAL_MOST_OPERATIONS];
@@ -32,6 +33,9 @@ void cif_crystal_clear(cif_crystal *c);
 
 /* Takes a tag, in small letters and with underscores for points, with its value. Others are no matter. */
 void cif_crystal_take(cif_crystal *c, const char *tag, text_span value);
+
+/* Reads an operation; a fourth part, +1 or -1, is what it does to magnetic moments. Returns NULL, or a sentence. */
+const char *cif_crystal_read_operation(cif_operation *o, text_span text);
 
 /* Adds an operation such as "-x+1/2, y-z, z". Returns NULL, or a sentence. */
 const char *cif_crystal_add_operation(cif_crystal *c, text_span text);
@@ -46,6 +50,12 @@ void cif_crystal_note(cif_crystal *c, const char *tag);
 /* Whether all symmetry that the file tells of is listed as operations; *what gets a group or a tag, where it is not:
  * x, y, z alone is none. */
 int cif_crystal_is_listed(const cif_crystal *c, const char **what);
+
+/* Takes the operations from the tables of space groups where the file lists none. Returns whether that is done. */
+int cif_crystal_apply_group(cif_crystal *c, const double edge[3][3]);
+
+/* Whether a listed atom is an image of another one of its element: then the file has them all. */
+int cif_crystal_lists_images(const cgt_trajectory *t, const cif_crystal *c, const double edge[3][3], uint32_t count);
 
 /* Makes room for the place of atom i. Returns 0, or -1: no memory. */
 int cif_crystal_reserve(cif_crystal *c, size_t i);

@@ -336,16 +336,34 @@ static int mmcif_begin(cgt_trajectory *t)
 static void tell_crystal(cgt_trajectory *t)
 {
     const mmcif_state *const s = t->state;
-    const char *what;
-    if (!cif_crystal_is_listed(&s->crystal, &what))
-        trajectory_warn(t, DOUBT_SYMMETRY, 0,
-                        "the space group is '%s', but its operations are not listed: only the listed atoms are read",
-                        what);
     if (s->partial > 0)
         trajectory_warn(t, DOUBT_DISORDER, 0,
                         "%" PRIu32 " of %" PRIu32 " listed atoms are there in part, by occupancy or as a group of "
                         "disorder: all are read",
                         s->partial, s->count);
+}
+
+enum { MOST_LISTED = 2000 }; /* atoms that are compared with each other's images */
+
+/* Takes the symmetry that is named, but not listed, from tables, and tells what is done. */
+static void take_group(cgt_trajectory *t, const double edge[3][3])
+{
+    mmcif_state *const s = t->state;
+    const char *what;
+    if (cif_crystal_is_listed(&s->crystal, &what))
+        return;
+    int is_taken = s->count <= MOST_LISTED && cif_crystal_apply_group(&s->crystal, edge);
+    if (is_taken && cif_crystal_lists_images(t, &s->crystal, edge, s->count)) {
+        s->crystal.operations = 0;
+        is_taken = 0;
+    }
+    if (is_taken)
+        trajectory_warn(t, DOUBT_SYMMETRY, 0,
+                        "the space group is '%s', whose operations are not listed: they are those of the tables", what);
+    else
+        trajectory_warn(t, DOUBT_SYMMETRY, 0,
+                        "the space group is '%s', but its operations are not listed: only the listed atoms are read",
+                        what);
 }
 
 /* Makes the atoms of a crystal and its cell. */
@@ -364,6 +382,8 @@ static int finish_cell(cgt_trajectory *t, double edge[3][3], int *has_cell)
     const char *const reason = cif_crystal_center(&s->crystal);
     if (reason != NULL)
         return trajectory_fail(t, t->text.line, "%s", reason);
+    if (*has_cell)
+        take_group(t, (const double(*)[3])edge);
     tell_crystal(t);
     return cif_crystal_fill(t, &s->crystal, s->slot, CIF_COLUMNS, &s->count);
 }

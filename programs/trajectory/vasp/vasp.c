@@ -2,11 +2,11 @@
  * SPDX-License-Identifier: MIT
  *
  * POSCAR and CONTCAR (one frame) and XDATCAR (a run) of VASP, as its wiki describes them: a title; a scale, which is
- * the volume of the cell where it is negative, or three, one for each axis; three edges; names of species, which VASP 4
- * does not write; how many atoms each has; perhaps "Selective dynamics"; "Direct" or "Cartesian"; the positions. Names
- * and numbers may go on for several lines, and remarks stand behind what is read. What follows the positions in a CONTCAR
- * (velocities, predictors) is not read. A run goes on with "Direct configuration= N", with a blank line where the first
- * frame has one in that place, or with a whole header where the cell changes. */
+ * the volume of the cell where it is negative, or three, one for each axis; three edges; names of species, which
+ * VASP 4 does not write; how many atoms each has; perhaps "Selective dynamics"; "Direct" or "Cartesian"; the
+ * positions. Names and numbers may go on for several lines, and remarks stand behind what is read. What follows the
+ * positions in a CONTCAR (velocities, predictors) is not read. A run goes on with "Direct configuration= N", with a
+ * blank line where the first frame has one in that place, or with a whole header where the cell changes. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/molecule/molecule_atom.h"
 #include "trajectory/trajectory_sites.h"

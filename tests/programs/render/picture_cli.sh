@@ -65,6 +65,8 @@ says err '1 of 4 spheres are no atoms'
 same atoms no_site "a virtual site is drawn"
 draw site -c 0,0,9,0,0,0,0,1,0,60 --show 'site >= 0' tip4p.xyz
 differs atoms site "--show does not bring virtual sites back"
+draw no_column -c 0,0,9,0,0,0,0,1,0,60 --show 'site == 0' water.xyz
+same atoms no_column "a file without sites has none to show"
 
 # ---- Periodic boxes and zoom ----------------------------------------------------------------------------------------
 

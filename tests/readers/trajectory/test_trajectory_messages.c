@@ -46,6 +46,47 @@ static void expect_rows(const message_row *rows, size_t count)
 
 /* ---- Text ---------------------------------------------------------------------------------------------------- */
 
+/* Topologies, of a run of one atom. */
+TEST(topologies_without_places)
+{
+    static const struct {
+        const char *ending, *text, *sentence;
+    } rows[] = {
+        {".psf", "PDF\n", "not a PSF file: it does not begin with PSF"},
+        {".psf", "PSF\n 1 !NTITLE\n", "the file has no atoms"},
+        {".psf", "PSF\n 1 !NATOM\n 1 A 1 ALA CA\n", "an atom has a number, a residue, names, a charge and a mass"},
+        {".psf", "PSF\n 2 !NATOM\n 1 A 1 ALA CA CT 0.1 12.011 0\n", "the file ends in the atoms: it is cut off"},
+        {".psf", "PSF\n 1 !NATOM\n 1 A 1 ALA CA CT 0.1 12.011 0\n 1 !NATOM\n 1 A 1 ALA CA CT 0.1 12.011 0\n",
+         "a second section of atoms"},
+        {".psf", "PSF\n 1 !NATOM\n 1 A 1 ALA CA CT 0.1 12.011 0\n 1 !NBOND\n 1 x\n",
+         "a bond has the numbers of two atoms"},
+        {".psf", "PSF\n 1 !NATOM\n 1 A 1 ALA CA CT 0.1 12.011 0\n 1 !NBOND\n 1\n", "the file ends in the bonds"},
+        {".psf", "PSF\n 1 !NATOM\n 1 A 1 ALA CA CT 0.1 12.011 0\n 1 !NBOND\n 1 2\n",
+         "a bond to atom 2, which is not there"},
+        {".prmtop", "%VERSION\n%FLAG ATOM_NAME\n%FORMAT(a)\nCA  \n", "no width of fields, as in %FORMAT(20a4)"},
+        {".prmtop", "%VERSION\n%FLAG ATOM_NAME\n%FORMAT(20a4)\nCA  \n", "no residues, or more than atoms"},
+        {".prmtop",
+         "%VERSION\n%FLAG ATOM_NAME\n%FORMAT(20a4)\nCA  \n%FLAG RESIDUE_LABEL\n%FORMAT(20a4)\nALA \n"
+         "%FLAG BONDS_INC_HYDROGEN\n%FORMAT(10I8)\n       0       3       1\n",
+         "bond 1 of BONDS_INC_HYDROGEN is to an atom that is not there"},
+    };
+    static const char run[] = "1\n\n1 0 0 0\n";
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const cgt_trajectory_options options = {.topology = scratch_text(rows[i].ending, rows[i].text)};
+        expect_sentence(scratch_text(".xyz", run), &options, rows[i].sentence);
+    }
+    static const char *const two[] = {"PSF\n 2 !NATOM\n 1 A 1 ALA CA CT 0.1 12.011 0\n 2 A 1 ALA CA CT 0.1 12.011 0\n",
+                                      "%VERSION\n%FLAG ATOM_NAME\n%FORMAT(20a4)\nCA  CB  \n%FLAG RESIDUE_LABEL\n"
+                                      "%FORMAT(20a4)\nALA \n"};
+    for (int i = 0; i < 2; i++) {
+        const cgt_trajectory_options options = {.max_count = 1,
+                                                .topology = scratch_text(i ? ".prmtop" : ".psf", two[i])};
+        expect_sentence(scratch_text(".xyz", run), &options,
+                        i ? "2 atoms are more than the limit of 1" : "more atoms than the limit of 1");
+    }
+    expect_sentence(scratch_text(".psf", two[0]), NULL, "have no positions: give it as the topology of a trajectory");
+}
+
 TEST(too_many_names)
 {
     const char *path = scratch_path(".xyz");
