@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "data/element_radii.h"
+#include "options/numbers.h"
 
 enum { WORD_SIZE = sizeof(((const cgt_trajectory_column *)0)->word[0]) };
 
@@ -76,7 +77,8 @@ static int take_whole(const data_reader *r, const cgt_figure_column *c, double m
     for (uint32_t i = 0; i < r->from->points.count; i++) {
         const double value = number_of(&c->values, i);
         if (!(value >= 0.0 && value <= most) || value != floor(value))
-            return refuse(r, "%s: number %u is %g, not a whole number from 0 to %g", c->name, i, value, most);
+            return refuse(r, "%s: number %u is %s, not a whole number from 0 to %s", c->name, i,
+                          cgt_number(6, value).text, cgt_number(10, most).text);
         to[i] = (uint32_t)value;
     }
     return 0;
@@ -120,8 +122,8 @@ static int take_words(const data_reader *r, const cgt_figure_column *c, cgt_traj
     to->word = (const char(*)[WORD_SIZE])word;
     for (uint32_t i = 0; i < r->from->points.count; i++)
         if (!(to->value[i] >= 0.0f && to->value[i] <= (float)c->word_count))
-            return refuse(r, "%s: number %u is %g, and there are %u words", c->name, i, (double)to->value[i],
-                          c->word_count);
+            return refuse(r, "%s: number %u is %s, and there are %u words", c->name, i,
+                          cgt_number(6, (double)to->value[i]).text, c->word_count);
     return 0;
 }
 

@@ -94,4 +94,19 @@ refused 'has no column "c_ke"' color=c_ke
 refused 'material is for --bounces' material=all=glass
 refused 'the file has no bonds' bonds
 
+# Numbers have a point where the locale has a comma.
+if [ -z "$emulator" ] && localedef -i de_DE -f UTF-8 "$tmp/de_DE.UTF-8" >/dev/null 2>&1 &&
+    [ "$(LOCPATH=$tmp LC_ALL=de_DE.UTF-8 locale decimal_point)" = , ]; then
+    german() { LOCPATH=$tmp LC_ALL=de_DE.UTF-8 "$raw" COLUMNS grains.lammpstrj "$@"; }
+    for options in 'slice=1,0.5,0,4.5 color=c_pe*1.5 range=1.5,9.25 colorbar' 'camera=30.5,4,4,4,4,4,0,0,1,30.5 lamp=4.5,4,9' \
+        'cut=0.5,0.5,0,7.5,9,9 text-size=0.055 time={time} title=A zoom=1.25'; do
+        (cd "$tmp" && "$raw" COLUMNS grains.lammpstrj $options) >"$tmp/plain.rgb" 2>"$tmp/plain.err"
+        (cd "$tmp" && german $options) >"$tmp/german.rgb" 2>"$tmp/german.err"
+        cmp -s "$tmp/plain.rgb" "$tmp/german.rgb" && cmp -s "$tmp/plain.err" "$tmp/german.err" ||
+            fail "other bytes in a German locale: $options: $(head -n 2 "$tmp/german.err")"
+    done
+else
+    echo "no German locale: not tried"
+fi
+
 [ "$failures" -eq 0 ] || exit 1

@@ -3,7 +3,9 @@
  *
  * Pictures of a file by <cgt/figure.h>, as bytes on standard output, for doors.sh to compare with cgt-render's.
  *   figure_raw COLUMNS|FRAMES FILE [NAME[=VALUE]...]
- * COLUMNS: the frames' arrays are given as columns; FRAMES: the frames as they are. */
+ * COLUMNS: the frames' arrays are given as columns; FRAMES: the frames as they are. The locale is that of the
+ * environment. */
+#include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -104,6 +106,7 @@ int main(int argc, char **argv)
     cgt_trajectory *file = NULL;
     cgt_trajectory_frame frame;
     cgt_result result = CGT_OK;
+    setlocale(LC_ALL, "");
     if (argc < 3)
         return fail("arguments", "COLUMNS|FRAMES FILE [NAME[=VALUE]...]");
     const int gives_columns = strcmp(argv[1], "COLUMNS") == 0;
