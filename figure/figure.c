@@ -11,6 +11,7 @@
 #include "figure_state.h"
 #include "options/figure_values.h"
 #include "options/option_row.h"
+#include "survey/origin.h"
 
 /* ---- The figure --------------------------------------------------------------------------------------------- */
 
@@ -77,6 +78,7 @@ void cgt_figure_release(cgt_figure *figure)
     cgt_camera_keys_free(&figure->options.keys);
     cgt_notices_free(&figure->notices);
     cgt_figure_settings_free(&figure->given);
+    cgt_figure_data_free(&figure->mesh);
     free(figure);
 }
 
@@ -159,6 +161,33 @@ size_t cgt_figure_get(const cgt_figure *figure, const char *name, char *text, si
     return cgt_figure_settings_print(&figure->given, name, text, size);
 }
 
+/* ---- A mesh that stands ------------------------------------------------------------------------------------- */
+
+cgt_result cgt_figure_set_mesh(cgt_figure *figure, const cgt_figure_data *mesh)
+{
+    figure_data taken = {.blocks = 0};
+    cgt_figure_data data;
+    cgt_figure_column normals = {.name = "normal"};
+    if (mesh && mesh->frame) { /* by its arrays */
+        const cgt_trajectory_frame *const f = mesh->frame;
+        normals.values = cgt_floats(f->vertex_normal, 0);
+        data = (cgt_figure_data){
+            .points = {f->count, cgt_floats(f->position, 0), &normals, f->vertex_normal != NULL, 0.0f},
+            .triangles = {f->triangles, cgt_uint32s(f->index, 0)}};
+        mesh = &data;
+    }
+    if (mesh && (!mesh->triangles.corners.data || !mesh->triangles.count))
+        cgt_figure_fail(figure, "the mesh has no triangles");
+    else if (!mesh || cgt_figure_data_take(&taken, mesh, figure->message, sizeof figure->message) == 0) {
+        cgt_figure_data_free(&figure->mesh);
+        figure->mesh = taken;
+        begin_again(figure);
+        return CGT_OK;
+    }
+    cgt_figure_data_free(&taken);
+    return result_of(figure);
+}
+
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 
 /* Makes the caller's data the sequence's frame, its molecules put together. */
@@ -217,23 +246,48 @@ static int look(cgt_figure *figure, const cgt_figure_data *data)
 
 cgt_result cgt_figure_survey(cgt_figure *figure, const cgt_figure_data *data)
 {
-    if (figure->is_settled)
+    if (figure->has_survey && !figure->is_surveying) /* it has ended */
         begin_again(figure);
     return look(figure, data) ? fail_frame(figure) : CGT_OK;
+}
+
+static void end_survey(cgt_figure *figure)
+{
+    if (!figure->is_surveying)
+        return;
+    cgt_survey_end(&figure->team);
+    figure->is_surveying = 0;
+    figure->survey.has_total = 1;
+    figure->survey.total = figure->survey.frames;
+    figure->next = UINT64_MAX;
+}
+
+bool cgt_figure_get_origin(cgt_figure *figure, double origin[3])
+{
+    const figure_options *const o = &figure->options;
+    double more[3], eye[3], target[3];
+    end_survey(figure);
+    for (int c = 0; c < 3; c++) {
+        eye[c] = o->camera.eye[c] - figure->origin[c];
+        target[c] = o->camera.target[c] - figure->origin[c];
+    }
+    const int is_far = o->has_camera ? cgt_origin_of_camera(eye, target, more)
+                                     : figure->has_survey && figure->survey.kind == CGT_TRAJECTORY_SPHERES &&
+                                           cgt_origin_of_bulk(&figure->survey.bulk, more);
+    for (int c = 0; c < 3; c++)
+        origin[c] = figure->origin[c] + (is_far ? more[c] : 0.0);
+    return is_far;
 }
 
 /* After the survey: all choices. */
 static int settle(cgt_figure *figure)
 {
     const uint32_t trails = figure->options.particles.trails;
-    cgt_survey_end(&figure->team);
-    figure->is_surveying = 0;
-    figure->survey.has_total = 1;
-    figure->survey.total = figure->survey.frames;
-    figure->next = UINT64_MAX;
+    end_survey(figure);
     figure->is_mesh = figure->survey.kind == CGT_TRAJECTORY_TRIANGLES;
-    if (cgt_figure_move_cameras(figure) || cgt_figure_choose_colors(figure) || cgt_figure_choose_camera(figure) ||
-        cgt_figure_settle(figure))
+    if (cgt_figure_move_cameras(figure) || cgt_figure_choose_colors(figure) ||
+        (figure->mesh.frame.triangles && cgt_figure_scene_mesh(figure, &figure->mesh.frame)) ||
+        cgt_figure_choose_camera(figure) || cgt_figure_settle(figure))
         return -1;
     if (trails && !(figure->sequence.trails = cgt_trail_history_create(trails)))
         return cgt_figure_fail(figure, "out of memory for the trails");
@@ -255,7 +309,7 @@ static int check_frame(cgt_figure *figure)
 static int show(cgt_figure *figure, const cgt_figure_data *data)
 {
     frame_sequence *const s = &figure->sequence;
-    if (!figure->is_settled && ((!figure->is_surveying && look(figure, data)) || settle(figure)))
+    if (!figure->is_settled && ((!figure->has_survey && look(figure, data)) || settle(figure)))
         return -1;
     if (place_frame(figure, data) || check_frame(figure) || take_frame(figure))
         return -1;

@@ -37,6 +37,7 @@ struct cgt_figure {
     const void *stop_user;
     int has_origin;        /* it was given: none is chosen */
     figure_settings given; /* what <cgt/figure.h> made the options from */
+    figure_data mesh;      /* that stands still; without triangles: there is none */
     notices notices;       /* what a user should read */
     char message[FIGURE_MESSAGE_SIZE];
 

@@ -152,12 +152,21 @@ CGT_API cgt_result cgt_figure_unset(cgt_figure *figure, const char *name);
  * settings file. Returns the length of the whole text; 0: nothing was set. */
 CGT_API size_t cgt_figure_get(const cgt_figure *figure, const char *name, char *text, size_t size);
 
+/* Sets a mesh that stands still among the particles, such as walls; its points, triangles and column normal are copied,
+ * less its origin, which is that of the frames. NULL: none. After a frame was given, the survey begins anew.
+ * Errors: INVALID_ARGUMENT (it has no triangles; as cgt_figure_show), OUT_OF_MEMORY */
+CGT_API cgt_result cgt_figure_set_mesh(cgt_figure *figure, const cgt_figure_data *mesh);
+
 /* ---- A run -------------------------------------------------------------------------------------------------- */
 
 /* Looks at a frame: automatic camera, ranges and legend follow all frames that were looked at, in order. Speeds of frame
  * 0 are those towards frame 1 where that was looked at. A frame after one that was shown begins a new survey.
  * Errors: as cgt_figure_show */
 CGT_API cgt_result cgt_figure_survey(cgt_figure *figure, const cgt_figure_data *data);
+
+/* Ends a survey. Returns whether its frames, or the camera that is set, lie so far from 0 that single precision shows:
+ * then frames had better be given less this origin, and surveyed anew. */
+CGT_API bool cgt_figure_get_origin(cgt_figure *figure, double origin[3]);
 
 /* Makes a frame the one that is drawn: what is shown, colours, bonds, the scene's commit. The data are copied.
  * Errors: INVALID_ARGUMENT (what the options ask for is not there, or wrong), OUT_OF_MEMORY, TOO_LARGE */

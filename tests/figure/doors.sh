@@ -11,7 +11,7 @@ shift 3
 set -- "$render" "$folder" "$@"
 . "$(dirname "$0")/../programs/cli.sh"
 
-# Grains that move in a periodic box, and change what they are; a closed mesh.
+# Grains that move in a periodic box, the same far from 0; a closed mesh.
 awk 'BEGIN {
     for (k = 0; k < 4; k++) {
         printf "ITEM: TIMESTEP\n%d\nITEM: NUMBER OF ATOMS\n60\nITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\n", 10 * k
@@ -21,6 +21,9 @@ awk 'BEGIN {
                 int(i / 4) % 4 * 2.2 + 0.1 * k, int(i / 16) * 2.3, 0.4 + 0.1 * (i % 4), (i * 7 + k) % 11
     }
 }' >"$tmp/grains.lammpstrj"
+awk '/^0 9$/ { $1 = 1000000; $2 = 1000009 }
+    NF == 7 { for (c = 3; c < 6; c++) $c = sprintf("%.10g", $c + 1000000) }
+    { print }' "$tmp/grains.lammpstrj" >"$tmp/far.lammpstrj"
 cat >"$tmp/cube.obj" <<'END'
 v 0 0 0
 v 1 0 0
@@ -78,6 +81,10 @@ both grains.lammpstrj trails=2 arrows=1,0,c_pe/9 arrow-color=blue
 both grains.lammpstrj floor light-size=3 lamp=4,4,20,0.5,ff8000 depth-cue
 both grains.lammpstrj bounces=3 material=2=mirror material=all=glass floor=teal
 both grains.lammpstrj camera=30,4,4,4,4,4,0,0,1,30 style=plain color=red
+both grains.lammpstrj mesh=cube.obj mesh-opacity=0.5 mesh-color=ff8800
+both far.lammpstrj
+both far.lammpstrj box floor color=c_pe
+both far.lammpstrj camera=1000030,1000004,1000004,1000004,1000004,1000004,0,0,1,30
 both cube.obj
 both cube.obj bounces=4 material=all=glass floor
 both caffeine.xyz bonds radius-scale=0.3 outline

@@ -37,13 +37,18 @@ static int fail_file(const cgt_trajectory *file)
 
 /* A frame as a program has it, in columns. */
 static void give_columns(const cgt_trajectory_frame *f, cgt_figure_data *data, cgt_figure_column columns[MOST + 4],
-                         const char **words[MOST])
+                         const char **words[MOST], double **place)
 {
     const size_t stride = 4 * sizeof(float);
     uint32_t count = 0;
     *data = (cgt_figure_data){.number = f->number, .step = f->step, .time = &f->time, .angstrom = f->angstrom};
     data->points.count = f->count;
-    data->points.positions = f->xyzr ? cgt_floats(f->xyzr, stride) : cgt_floats(f->position, 0);
+    *place = realloc(*place, (3 * (size_t)f->count + 1) * sizeof **place);
+    for (size_t i = 0; i < f->count && *place; i++)
+        for (size_t c = 0; c < 3; c++)
+            (*place)[3 * i + c] = (double)(f->xyzr ? f->xyzr[4 * i + c] : f->position[3 * i + c]) + f->origin[c];
+    data->points.positions = cgt_doubles(*place, 0);
+    memcpy(data->origin, f->origin, sizeof data->origin);
     if (f->xyzr)
         columns[count++] = (cgt_figure_column){.name = "radius", .values = cgt_floats(f->xyzr + 3, stride)};
     if (f->element)
@@ -76,10 +81,24 @@ static void give_columns(const cgt_trajectory_frame *f, cgt_figure_data *data, c
     if (f->index)
         data->triangles = (cgt_figure_triangles){f->triangles, cgt_uint32s(f->index, 0)};
     data->bonds = (cgt_figure_bonds){f->bonds, f->bond};
-    memcpy(data->box.corner, f->box_origin, sizeof data->box.corner);
+    for (int c = 0; c < 3; c++)
+        data->box.corner[c] = f->box_origin[c] + f->origin[c];
     memcpy(data->box.edges, f->box_edge, sizeof data->box.edges);
     memcpy(data->box.periodic, f->periodic, sizeof data->box.periodic);
     memcpy(data->box.unwrapped, f->unwrapped, sizeof data->box.unwrapped);
+}
+
+/* The first frame of a file of triangles. */
+static int give_mesh(cgt_figure *figure, const char *path)
+{
+    cgt_trajectory *file = NULL;
+    cgt_trajectory_frame frame;
+    const cgt_figure_data mesh = {.frame = &frame};
+    if (cgt_trajectory_open(path, NULL, &file) || cgt_trajectory_read(file, &frame))
+        return fail_file(file);
+    const int failed = cgt_figure_set_mesh(figure, &mesh) ? fail_figure(figure) : 0;
+    cgt_trajectory_close(file); /* which was copied */
+    return failed;
 }
 
 /* All columns of the file are read. */
@@ -101,6 +120,7 @@ int main(int argc, char **argv)
     static const char **words[MOST];
     enum { WIDTH = 96, HEIGHT = 64 };
     static uint8_t rgb[HEIGHT][WIDTH][3];
+    double *place = NULL;
     cgt_context *context = NULL;
     cgt_figure *figure = NULL;
     cgt_trajectory *file = NULL;
@@ -118,17 +138,19 @@ int main(int argc, char **argv)
         char *const value = strchr(argv[i], '=');
         if (value)
             *value = '\0';
-        if (cgt_figure_set(figure, argv[i], value ? value + 1 : NULL))
-            return fail_figure(figure);
+        if (strcmp(argv[i], "mesh") == 0 && value                       ? give_mesh(figure, value + 1)
+            : cgt_figure_set(figure, argv[i], value ? value + 1 : NULL) ? fail_figure(figure)
+                                                                        : 0)
+            return 1;
     }
     if (cgt_trajectory_open(argv[2], NULL, &file) || want_columns(file))
         return fail_file(file);
-    for (int turn = 0; turn < 2; turn++) {
+    for (int turn = 0; turn < 2; turn++) { /* look at all, show each */
         while ((result = cgt_trajectory_read(file, &frame)) == CGT_OK) {
             cgt_figure_data data = {.frame = &frame};
             const cgt_image image = {.bytes = rgb[0][0]};
             if (gives_columns)
-                give_columns(&frame, &data, columns, words);
+                give_columns(&frame, &data, columns, words, &place);
             if (turn == 0 ? cgt_figure_survey(figure, &data) : cgt_figure_show(figure, &data))
                 return fail_figure(figure);
             if (turn == 0)
@@ -138,13 +160,21 @@ int main(int argc, char **argv)
             if (fwrite(rgb, sizeof rgb, 1, stdout) != 1)
                 return fail("standard output", "cannot be written");
         }
-        if (result != CGT_END || cgt_trajectory_rewind(file))
+        if (result != CGT_END)
+            return fail_file(file);
+        double origin[3];
+        if (turn == 0 && cgt_figure_get_origin(figure, origin)) {
+            cgt_trajectory_set_origin(file, origin);
+            turn = -1;
+        }
+        if (cgt_trajectory_rewind(file))
             return fail_file(file);
     }
     for (const char *notice; (notice = cgt_figure_take_notice(figure)) != NULL;)
         fprintf(stderr, "%s\n", notice);
     for (uint32_t i = 0; i < MOST; i++)
         free(words[i]);
+    free(place);
     cgt_figure_release(figure);
     cgt_trajectory_close(file);
     cgt_context_release(context);

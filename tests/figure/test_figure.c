@@ -309,6 +309,58 @@ TEST(kinds_do_not_change_in_a_run)
     cgt_figure_release(figure);
 }
 
+/* Walls are copied, and taken away again. */
+TEST(meshes_stand_among_particles)
+{
+    static float wall[3][3] = {{-3.0f, 6.0f, -3.0f}, {9.0f, 6.0f, -3.0f}, {3.0f, 6.0f, 9.0f}};
+    static const uint16_t corners[] = {0, 1, 2};
+    cgt_figure *const figure = make_figure();
+    const cgt_figure_data data = grains();
+    cgt_figure_data mesh = {.points = {3, cgt_floats(wall[0], 0), NULL, 0, 0.0f},
+                            .triangles = {1, cgt_uint16s(corners, 0)}};
+    uint8_t alone[BYTES], walled[BYTES], again[BYTES];
+    draw(figure, &data, alone);
+    assert_int_equal(cgt_figure_set_mesh(figure, &mesh), CGT_OK);
+    wall[2][2] = 90.0f; /* after the call it is nobody's */
+    draw(figure, &data, walled);
+    assert_memory_not_equal(walled, alone, sizeof walled);
+    assert_int_equal(cgt_figure_set_mesh(figure, &data), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "the mesh has no triangles");
+    mesh.points.count = 2;
+    assert_int_equal(cgt_figure_set_mesh(figure, &mesh), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "triangle 0 has the corner 2");
+    draw(figure, &data, again);
+    assert_memory_equal(again, walled, sizeof again);
+    assert_int_equal(cgt_figure_set_mesh(figure, NULL), CGT_OK);
+    draw(figure, &data, again);
+    assert_memory_equal(again, alone, sizeof again);
+    cgt_figure_release(figure);
+}
+
+TEST(origins_are_found)
+{
+    static double far[GRAINS][3];
+    cgt_figure *const figure = make_figure();
+    cgt_figure_data data = grains();
+    double origin[3];
+    assert_false(cgt_figure_get_origin(figure, origin)); /* nothing was looked at */
+    assert_int_equal(cgt_figure_survey(figure, &data), CGT_OK);
+    assert_false(cgt_figure_get_origin(figure, origin));
+    for (int i = 0; i < GRAINS; i++)
+        for (int c = 0; c < 3; c++)
+            far[i][c] = 1e7 + (double)place[i][c];
+    data.points.positions = cgt_doubles(far[0], 0);
+    assert_int_equal(cgt_figure_survey(figure, &data), CGT_OK);
+    assert_true(cgt_figure_get_origin(figure, origin));
+    for (int c = 0; c < 3; c++)
+        assert_true(fabs(origin[c] - 1e7) < 10.0);
+    memcpy(data.origin, origin, sizeof origin);
+    assert_int_equal(cgt_figure_survey(figure, &data), CGT_OK);
+    assert_false(cgt_figure_get_origin(figure, origin));
+    assert_int_equal(cgt_figure_show(figure, &data), CGT_OK);
+    cgt_figure_release(figure);
+}
+
 TEST(nothing_is_a_figure_too)
 {
     cgt_figure *figure = NULL;
