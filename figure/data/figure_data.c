@@ -100,11 +100,10 @@ static int take_vectors(const data_reader *r, const cgt_figure_column *c, const 
 }
 
 /* A column that formulas may name. */
-static int add_column(const data_reader *r, const char *name, const float *value, cgt_trajectory_column_kind kind)
+static void add_column(const data_reader *r, const char *name, const float *value, cgt_trajectory_column_kind kind)
 {
     cgt_trajectory_frame *const f = &r->to->frame;
     r->to->column[f->columns++] = (cgt_trajectory_column){.name = name, .kind = kind, .value = value};
-    return 0;
 }
 
 static int take_words(const data_reader *r, const cgt_figure_column *c, cgt_trajectory_column *to)
@@ -163,6 +162,8 @@ static int take_column(const data_reader *r, const cgt_figure_column *c)
     for (uint32_t i = 0; i < count; i++)
         value[i] = (float)number_of(&c->values, i);
     add_column(r, c->name, value, CGT_TRAJECTORY_NUMBER);
+    if (strcmp(c->name, "radius") == 0)
+        r->to->radius = value;
     if (c->words)
         return take_words(r, c, &r->to->column[f->columns - 1]);
     if (!is_whole)
@@ -189,17 +190,15 @@ static int take_spheres(const data_reader *r)
 {
     cgt_trajectory_frame *const f = &r->to->frame;
     const cgt_figure_points *const p = &r->from->points;
-    const cgt_trajectory_column *radius = NULL;
+    const float *const radius = r->to->radius;
     float *const xyzr = make(r, 4 * (size_t)p->count, sizeof *xyzr);
     if (!xyzr)
         return -1;
-    for (uint32_t i = 0; i < f->columns; i++)
-        radius = strcmp(f->column[i].name, "radius") == 0 ? &f->column[i] : radius;
     f->has_radius = radius != NULL;
     for (size_t i = 0; i < p->count; i++) {
         for (size_t k = 0; k < 3; k++)
             xyzr[4 * i + k] = (float)(cgt_array_get_number(&p->positions, i, 3, k) - r->from->origin[k]);
-        xyzr[4 * i + 3] = radius             ? radius->value[i]
+        xyzr[4 * i + 3] = radius             ? radius[i]
                           : p->radius > 0.0f ? p->radius
                           : f->element       ? element_radius(f->element[i]) * f->angstrom
                                              : 0.5f;

@@ -65,8 +65,8 @@ int cgt_read_u32(const char *text, uint32_t min, uint32_t max, uint32_t *value, 
 
 enum { NUMBER_MOST = 512 }; /* letters of a number, in a locale without a point */
 
-/* The number at the start of a text, as the locale writes it; the text itself where that has a point, or in the copy. Of
- * as many letters: what follows a number does not begin with one of these. */
+/* The number at the start of a text, as the locale writes it; the text itself where that has a point, or in the copy,
+ * which ends behind all letters that numbers may have. */
 static const char *localize(const char *text, char copy[NUMBER_MOST])
 {
     const char *const point = localeconv()->decimal_point;

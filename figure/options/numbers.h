@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Numbers, words and cameras from texts. A parser returns 0, or -1 with a sentence in error. One that fails changes none
- * of its results. Numbers have a point, whatever the locale of the process is. */
+ * Numbers, words and cameras from texts. A parser returns 0, or -1 with a sentence in error. One that fails changes
+ * none of its results. Numbers have a point, whatever the locale of the process is. */
 #ifndef NUMBERS_H
 #define NUMBERS_H
 

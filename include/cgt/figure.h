@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Figures: from columns of particles, meshes, bonds and a box, and options that say how to show them, to the pixels of a
- * labelled picture, the same that cgt-render makes. In outline:
+ * Figures: from columns of particles, meshes, bonds and a box, and options that say how to show them, to the pixels of
+ * a labelled picture, the same that cgt-render makes. In outline:
  *
  *   cgt_figure_create(context, &figure);
  *   cgt_figure_set(figure, "color", "charge");              what cgt-render --color=charge means
@@ -22,8 +22,8 @@
  *
  * Conventions are those of cgt.h and picture.h. Options and data are in the data's own coordinates, whatever origin is
  * subtracted from them.
- * Errors   Functions give a cgt_result; the figure has the sentence. A call of cgt_figure_set that fails changes nothing;
- *          after another one that fails the survey begins anew.
+ * Errors   Functions give a cgt_result; the figure has the sentence. A call of cgt_figure_set that fails changes
+ *          nothing; after another one that fails the survey begins anew.
  * Threads  One thread at a time calls a figure.
  * Numbers  are read and written with a point, whatever the locale of the process is. */
 #ifndef CGT_FIGURE_H
@@ -41,8 +41,8 @@ typedef struct cgt_figure cgt_figure;
 
 /* ---- Data --------------------------------------------------------------------------------------------------- */
 
-/* A column: what each particle or vertex has, floats, doubles or halves; id, type and element may be whole numbers. Some
- * names mean something: radius, id, type, element (atomic number), velocity (three numbers), normal (three; of
+/* A column: what each particle or vertex has, floats, doubles or halves; id, type and element may be whole numbers.
+ * Some names mean something: radius, id, type, element (atomic number), velocity (three numbers), normal (three; of
  * vertices). Others are for formulas and colours. */
 typedef struct cgt_figure_column {
     const char *name;
@@ -159,8 +159,8 @@ CGT_API cgt_result cgt_figure_set_mesh(cgt_figure *figure, const cgt_figure_data
 
 /* ---- A run -------------------------------------------------------------------------------------------------- */
 
-/* Looks at a frame: automatic camera, ranges and legend follow all frames that were looked at, in order. Speeds of frame
- * 0 are those towards frame 1 where that was looked at. A frame after one that was shown begins a new survey.
+/* Looks at a frame: automatic camera, ranges and legend follow all frames that were looked at, in order. Speeds of
+ * frame 0 are those towards frame 1 where that was looked at. A frame after one that was shown begins a new survey.
  * Errors: as cgt_figure_show */
 CGT_API cgt_result cgt_figure_survey(cgt_figure *figure, const cgt_figure_data *data);
 
