@@ -11,6 +11,7 @@
 
 #include "survey/origin.h"
 #include "figure_state.h"
+#include "options/numbers.h"
 
 /* ---- Failures ----------------------------------------------------------------------------------------------- */
 
@@ -163,11 +164,14 @@ void cgt_figure_name_camera(const cgt_figure *figure, const cgt_camera *camera, 
 {
     const int digits = figure_is_moved(figure) ? 15 : 9;
     size_t used = 0;
-    for (int c = 0; c < 6; c++)
-        used += (size_t)snprintf(text + used, FIGURE_CAMERA_SIZE - used, "%.*g,", digits,
-                                 (double)(c < 3 ? camera->eye : camera->target)[c % 3] + figure->origin[c % 3]);
-    snprintf(text + used, FIGURE_CAMERA_SIZE - used, "%.9g,%.9g,%.9g,%.9g\n", (double)camera->up[0],
-             (double)camera->up[1], (double)camera->up[2], (double)camera->fov);
+    for (int c = 0; c < 10; c++) {
+        const double value = c < 3   ? (double)camera->eye[c] + figure->origin[c]
+                             : c < 6 ? (double)camera->target[c - 3] + figure->origin[c - 3]
+                             : c < 9 ? (double)camera->up[c - 6]
+                                     : (double)camera->fov;
+        used += (size_t)snprintf(text + used, FIGURE_CAMERA_SIZE - used, "%s%c",
+                                 cgt_number(c < 6 ? digits : 9, value).text, c < 9 ? ',' : '\n');
+    }
 }
 
 /* ---- Colours ------------------------------------------------------------------------------------------------ */
@@ -204,16 +208,18 @@ int cgt_figure_choose_colors(cgt_figure *figure)
 
 /* ---- Camera and light --------------------------------------------------------------------------------------- */
 
-enum { BOUNDS_SIZE = 200 };
+enum { BOUNDS_SIZE = 256 };
 
 /* "from (0, 0, 0) to (1, 1, 1)", in the file's coordinates. */
 static void write_bounds(const cgt_figure *figure, const float min[3], const float max[3], char text[BOUNDS_SIZE])
 {
     const int digits = figure_is_moved(figure) ? 15 : 6;
     const double *const o = figure->origin;
-    snprintf(text, BOUNDS_SIZE, "from (%.*g, %.*g, %.*g) to (%.*g, %.*g, %.*g)", digits, o[0] + (double)min[0], digits,
-             o[1] + (double)min[1], digits, o[2] + (double)min[2], digits, o[0] + (double)max[0], digits,
-             o[1] + (double)max[1], digits, o[2] + (double)max[2]);
+    const double at[6] = {o[0] + (double)min[0], o[1] + (double)min[1], o[2] + (double)min[2],
+                          o[0] + (double)max[0], o[1] + (double)max[1], o[2] + (double)max[2]};
+    snprintf(text, BOUNDS_SIZE, "from (%s, %s, %s) to (%s, %s, %s)", cgt_number(digits, at[0]).text,
+             cgt_number(digits, at[1]).text, cgt_number(digits, at[2]).text, cgt_number(digits, at[3]).text,
+             cgt_number(digits, at[4]).text, cgt_number(digits, at[5]).text);
 }
 
 /* What the camera must show of a bulk: all within its bounds where that is among the samples, else the bounds. */

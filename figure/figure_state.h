@@ -10,9 +10,11 @@
 
 #include <stdint.h>
 
-#include <cgt/picture.h>
+#include <cgt/figure.h>
 
 #include "color/coloring.h"
+#include "data/figure_data.h"
+#include "data/frame_copy.h"
 #include "text/overlay.h"
 #include "camera/camera_path.h"
 #include "sequence/frame_sequence.h"
@@ -20,6 +22,7 @@
 #include "scene/figure_scene.h"
 #include "notices.h"
 #include "options/figure_options.h"
+#include "options/figure_settings.h"
 
 typedef struct figure_bounce figure_bounce;
 
@@ -30,11 +33,17 @@ struct cgt_figure {
     figure_options options;
     const char *source;             /* how messages call the data, such as a path */
     cgt_context *context;           /* of the scene */
-    bool (*stop)(const void *user); /* asked while a picture is made */
+    bool (*stop)(const void *user); /* asked while a picture is made; NULL: nothing is */
     const void *stop_user;
+    int has_origin;        /* it was given: none is chosen */
+    figure_settings given; /* what <cgt/figure.h> made the options from */
+    figure_data mesh;      /* that stands still; without triangles: there is none */
+    notices notices;       /* what a user should read */
+    char message[FIGURE_MESSAGE_SIZE];
+
+    /* What is known of the data and found of frames; all zero at first. */
     double origin[3]; /* that is subtracted from the data */
-    int has_origin;   /* it was given: none is chosen */
-    int is_mesh;      /* the data are a mesh file, which gets more ambient rays */
+    int is_mesh;      /* the data are a mesh, which gets more ambient rays */
 
     frame_sequence sequence;
     int has_survey;
@@ -59,8 +68,14 @@ struct cgt_figure {
     cgt_image image;      /* of the frame: the caller's memory */
     overlay overlay;
     overlay_kind kinds[OVERLAY_MOST_KINDS]; /* of its legend */
-    notices notices;                        /* what a user should read */
-    char message[FIGURE_MESSAGE_SIZE];
+
+    /* Of <cgt/figure.h> alone. */
+    int is_settled, is_surveying;
+    survey_team team;  /* while is_surveying */
+    uint64_t next;     /* number of the frame that follows the last one */
+    figure_data data;  /* the frame at hand, of the caller's columns */
+    frame_copy copy;   /* the places of the shown frame, */
+    frame_parts drawn; /* and what is drawn of it */
 };
 
 /* Whether an origin is subtracted from the data's coordinates. */

@@ -24,7 +24,7 @@ packages_of() {
                  assimp-testmodels glmark2-data gnuplot-nox \
                  ffmpeg libopenmpi-dev openmpi-bin lammps liblammps-dev python3-lammps \
                  python3-cffi python3-numpy python3-pytest python3-pip python3-setuptools python3-wheel mypy python3-mpi4py \
-                 libdeflate-dev zlib1g-dev libgmp-dev help2man xvfb xdotool abigail-tools mkdocs ;;         # native tests
+                 libdeflate-dev zlib1g-dev libgmp-dev help2man locales xvfb xdotool abigail-tools mkdocs ;;         # native tests
     clang)  echo clang libclang-rt-14-dev ;;                                       # the tests by another compiler
     cross)  echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-powerpc64-linux-gnu libc6-dev-ppc64-cross \
                  qemu-user xz-utils ;;                                             # cross tests

@@ -5,13 +5,13 @@
  * which works on a block of elements at a time (expression_run.c). */
 #include "data/expression.h"
 
-#include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "data/expression_steps.h"
+#include "options/numbers.h"
 
 enum { MOST_NESTING = 200 }; /* of the stack of calls */
 
@@ -62,18 +62,24 @@ static void emit(parser *p, expression_op op, uint32_t name, double number, int 
     p->depth += 1 - (uint32_t)takes;
 }
 
+/* Of ASCII alone, whatever the locale is. */
+static int is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+static int is_digit(char c) { return c >= '0' && c <= '9'; }
+static int is_alpha(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+static int is_alnum(char c) { return is_alpha(c) || is_digit(c); }
+
 static void skip_space(parser *p)
 {
-    while (isspace((unsigned char)*p->at))
+    while (is_space(*p->at))
         p->at++;
 }
 
 static size_t name_length(const char *at)
 {
     size_t length = 0;
-    if (!isalpha((unsigned char)*at) && *at != '_')
+    if (!is_alpha(*at) && *at != '_')
         return 0;
-    while (isalnum((unsigned char)at[length]) || (at[length] && strchr("_.:[]", at[length])))
+    while (is_alnum(at[length]) || (at[length] && strchr("_.:[]", at[length])))
         length++;
     return length;
 }
@@ -82,7 +88,7 @@ static int accept(parser *p, const char *token)
 {
     skip_space(p);
     const size_t length = strlen(token);
-    if (strncmp(p->at, token, length) != 0 || (isalpha((unsigned char)*token) && name_length(p->at) != length))
+    if (strncmp(p->at, token, length) != 0 || (is_alpha(*token) && name_length(p->at) != length))
         return 0;
     p->at += length;
     return 1;
@@ -223,9 +229,9 @@ static void parse_primary(parser *p)
         return;
     if (length) {
         parse_name(p, length);
-    } else if (isdigit((unsigned char)*p->at) || (*p->at == '.' && isdigit((unsigned char)p->at[1]))) {
+    } else if (is_digit(*p->at) || (*p->at == '.' && is_digit(p->at[1]))) {
         char *end;
-        const double number = strtod(p->at, &end);
+        const double number = cgt_scan_double(p->at, &end);
         p->at = end;
         emit(p, OP_NUMBER, 0, number, 0);
     } else if (accept(p, "(")) {

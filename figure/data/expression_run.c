@@ -9,6 +9,7 @@
 
 #include "data/expression_steps.h"
 #include "data/residue_names.h"
+#include "options/numbers.h"
 #include "data/frame_access.h"
 
 enum { BLOCK = 64 }; /* elements that go through all steps together */
@@ -175,8 +176,8 @@ static int check_numbers(const expression *e, const cgt_trajectory_frame *frame,
             s[-2].name >= EXPRESSION_NAMES || !words_of(e, s[-2].name, frame))
             continue;
         return refuse(frame, error, size,
-                      "has words in the column \"%s\": compare by == or != with one in quotes, \"%g\"",
-                      e->names[s[-2].name], s[-1].number);
+                      "has words in the column \"%s\": compare by == or != with one in quotes, \"%s\"",
+                      e->names[s[-2].name], cgt_number(6, s[-1].number).text);
     }
     return 0;
 }

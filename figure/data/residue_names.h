@@ -30,8 +30,8 @@ static inline int residue_is_in(const char *list, const char *begin, size_t leng
     return strstr(list, word) != NULL;
 }
 
-/* Whether it is an amino acid of a protein in any state, or a cap at its end; or water. Unlike residue_is_organic of the
- * readers this takes no name for the letters in it: GLYC is glycerol. */
+/* Whether it is an amino acid of a protein in any state, or a cap at its end; or water. Unlike residue_is_organic of
+ * the readers this takes no name for the letters in it: GLYC is glycerol. */
 static inline int residue_is_protein(const char *residue)
 {
     const size_t length = strlen(residue);

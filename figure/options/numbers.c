@@ -5,6 +5,7 @@
 #include "options/numbers.h"
 
 #include <inttypes.h>
+#include <locale.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -62,6 +63,51 @@ int cgt_read_u32(const char *text, uint32_t min, uint32_t max, uint32_t *value, 
     return 0;
 }
 
+enum { NUMBER_MOST = 512 }; /* letters of a number, in a locale without a point */
+
+/* The number at the start of a text, as the locale writes it; the text itself where that has a point, or in the copy,
+ * which ends behind all letters that numbers may have. */
+static const char *localize(const char *text, char copy[NUMBER_MOST])
+{
+    const char *const point = localeconv()->decimal_point;
+    size_t length = strspn(text, "+-.0123456789eExXabcdfABCDFpP");
+    if (strcmp(point, ".") == 0 || strlen(point) != 1)
+        return text;
+    length = length < NUMBER_MOST ? length : NUMBER_MOST - 1;
+    for (size_t i = 0; i < length; i++)
+        copy[i] = text[i] == '.' ? *point : text[i];
+    copy[length] = '\0';
+    return copy;
+}
+
+double cgt_scan_double(const char *text, char **end)
+{
+    char copy[NUMBER_MOST], *after;
+    const char *const local = localize(text, copy);
+    const double number = strtod(local, &after);
+    *end = (char *)(uintptr_t)(text + (after - local));
+    return number;
+}
+
+float cgt_scan_float(const char *text, char **end)
+{
+    char copy[NUMBER_MOST], *after;
+    const char *const local = localize(text, copy);
+    const float number = strtof(local, &after);
+    *end = (char *)(uintptr_t)(text + (after - local));
+    return number;
+}
+
+number_text cgt_number(int digits, double value)
+{
+    number_text n;
+    snprintf(n.text, sizeof n.text, "%.*g", digits, value);
+    char *const at = strstr(n.text, localeconv()->decimal_point);
+    if (at && strlen(localeconv()->decimal_point) == 1)
+        *at = '.';
+    return n;
+}
+
 /* Reads a finite number at *text and moves it past it. */
 static int scan_float(const char **text, float *value)
 {
@@ -69,7 +115,7 @@ static int scan_float(const char **text, float *value)
     char *end;
     if (!((first >= '0' && first <= '9') || first == '-' || first == '+' || first == '.'))
         return -1; /* no blanks, nan, inf */
-    const float number = strtof(*text, &end);
+    const float number = cgt_scan_float(*text, &end);
     if (end == *text || !isfinite(number))
         return -1;
     *text = end;
@@ -82,7 +128,8 @@ int cgt_read_float(const char *text, float min, float max, float *value, char *e
     const char *p = text;
     float number;
     if (scan_float(&p, &number) || *p != '\0' || !(number >= min && number <= max))
-        return refuse(error, error_size, "'%.80s' is not a number from %g to %g", text, (double)min, (double)max);
+        return refuse(error, error_size, "'%.80s' is not a number from %s to %s", text, cgt_number(6, (double)min).text,
+                      cgt_number(6, (double)max).text);
     *value = number;
     return 0;
 }
@@ -109,7 +156,7 @@ int cgt_read_doubles(const char *text, size_t count, double *values, char *error
     if (cgt_read_floats(text, count, rounded, error, error_size))
         return -1;
     for (size_t i = 0; i < count; i++, text = end + 1)
-        values[i] = strtod(text, &end);
+        values[i] = cgt_scan_double(text, &end);
     return 0;
 }
 
@@ -156,7 +203,8 @@ int cgt_read_far_camera(const char *text, cgt_camera *camera, double eye_at[3], 
     if (up_is_parallel(view, up))
         return refuse(error, error_size, "up is zero, or parallel to the view from eye to target");
     if (!(v[9] > 0.0f && v[9] < 180.0f))
-        return refuse(error, error_size, "the angle %g is not above 0 and below 180 degrees", (double)v[9]);
+        return refuse(error, error_size, "the angle %s is not above 0 and below 180 degrees",
+                      cgt_number(6, (double)v[9]).text);
     camera->projection = CGT_PROJECTION_PERSPECTIVE;
     memcpy(camera->eye, eye, sizeof camera->eye);
     memcpy(camera->target, target, sizeof camera->target);

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Numbers, words and cameras from texts. A parser returns 0, or -1 with a sentence in error. One that fails changes none
- * of its results. */
+ * Numbers, words and cameras from texts. A parser returns 0, or -1 with a sentence in error. One that fails changes
+ * none of its results. Numbers have a point, whatever the locale of the process is. */
 #ifndef NUMBERS_H
 #define NUMBERS_H
 
@@ -13,6 +13,16 @@
 
 /* Reads the value of an option to its place. Returns 0, or -1 with a sentence. */
 typedef int option_parser(const char *text, void *to, char *error, size_t error_size);
+
+/* As strtod and strtof, with a point. */
+double cgt_scan_double(const char *text, char **end);
+float cgt_scan_float(const char *text, char **end);
+
+/* A number by %.*g, with a point: printed by cgt_number(digits, value).text. */
+typedef struct number_text {
+    char text[32];
+} number_text;
+number_text cgt_number(int digits, double value);
 
 /* A whole number from min to max, decimal digits only. */
 int cgt_read_u64(const char *text, uint64_t min, uint64_t max, uint64_t *value, char *error, size_t error_size);

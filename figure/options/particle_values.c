@@ -76,7 +76,8 @@ int cgt_parse_slice(const char *text, void *to, char *error, size_t size)
     char condition[256];
     if (cgt_read_doubles(text, 4, v, error, size))
         return -1;
-    snprintf(condition, sizeof condition, "%.17g * x + %.17g * y + %.17g * z <= %.17g", v[0], v[1], v[2], v[3]);
+    snprintf(condition, sizeof condition, "%s * x + %s * y + %s * z <= %s", cgt_number(17, v[0]).text,
+             cgt_number(17, v[1]).text, cgt_number(17, v[2]).text, cgt_number(17, v[3]).text);
     return cgt_parse_show(condition, to, error, size);
 }
 
@@ -90,9 +91,9 @@ int cgt_parse_cut(const char *text, void *to, char *error, size_t size)
         snprintf(error, size, "\"%s\": the first corner is not below the second", text);
         return -1;
     }
-    snprintf(condition, sizeof condition,
-             "x >= %.17g && y >= %.17g && z >= %.17g && x <= %.17g && y <= %.17g && z <= %.17g", v[0], v[1], v[2], v[3],
-             v[4], v[5]);
+    snprintf(condition, sizeof condition, "x >= %s && y >= %s && z >= %s && x <= %s && y <= %s && z <= %s",
+             cgt_number(17, v[0]).text, cgt_number(17, v[1]).text, cgt_number(17, v[2]).text, cgt_number(17, v[3]).text,
+             cgt_number(17, v[4]).text, cgt_number(17, v[5]).text);
     return cgt_parse_show(condition, to, error, size);
 }
 

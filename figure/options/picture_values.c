@@ -162,7 +162,7 @@ static int add_lamp(const char *text, cgt_light_kind kind, picture_options *o, c
     lamp->strength = v[3];
     for (int c = 0; c < 3; c++) {
         lamp->place[c] = v[c];
-        lamp->at[c] = strtod(after + (c > 0), &after);
+        lamp->at[c] = cgt_scan_double(after + (c > 0), &after);
         lamp->color[c] = cgt_srgb_to_linear((float)rgb[c] / 255.0f);
     }
     return 0;

@@ -95,7 +95,7 @@ static void extend(survey *s, const camera_directions *fit, const float p[3])
     cgt_camera_reach_add(&s->reach, fit, place, 0.0);
 }
 
-int cgt_figure_set_mesh(cgt_figure *figure, const cgt_trajectory_frame *mesh)
+int cgt_figure_scene_mesh(cgt_figure *figure, const cgt_trajectory_frame *mesh)
 {
     figure_scene *s = &figure->parts;
     s->mesh = *mesh;

@@ -58,7 +58,7 @@ typedef struct cgt_figure cgt_figure;
 int cgt_figure_scene_open(cgt_figure *figure);
 
 /* Takes a mesh that stands still, whose arrays stay where they are; before the camera is chosen. */
-int cgt_figure_set_mesh(cgt_figure *figure, const cgt_trajectory_frame *mesh);
+int cgt_figure_scene_mesh(cgt_figure *figure, const cgt_trajectory_frame *mesh);
 
 /* After the survey: extends its bounds by box, images and mesh. */
 void cgt_figure_scene_bound(cgt_figure *figure);

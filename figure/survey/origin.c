@@ -9,6 +9,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "options/numbers.h"
+
 static const double steps = 32768.0;    /* of single precision across the picture: more than it has pixels */
 static const double round_steps = 64.0; /* across a radius: with fewer, equal spheres overlap unevenly */
 
@@ -64,7 +66,7 @@ int cgt_origin_of_camera(const double eye[3], const double target[3], double ori
 void cgt_origin_tell(const double origin[3], const char *what, char *text, size_t size)
 {
     snprintf(text, size,
-             "%s far from 0, where single precision rounds coordinates visibly: --origin %.15g,%.15g,%.15g is "
+             "%s far from 0, where single precision rounds coordinates visibly: --origin %s,%s,%s is "
              "subtracted from them in double",
-             what, origin[0], origin[1], origin[2]);
+             what, cgt_number(15, origin[0]).text, cgt_number(15, origin[1]).text, cgt_number(15, origin[2]).text);
 }

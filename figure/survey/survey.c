@@ -343,7 +343,7 @@ void cgt_survey_end(survey_team *team)
     cgt_bulk_values_sort(&team->first->value_samples);
 }
 
-/* ---- Ranges ------------------------------------------------------------------------------------------------------- */
+/* ---- Ranges ------------------------------------------------------------------------------------------------ */
 
 float cgt_survey_speed_quantile(const survey *s, double share)
 {

@@ -9,6 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "options/numbers.h"
+
 static const float margin = 0.9f;
 
 /* ---- Text --------------------------------------------------------------------------------------------------- */
@@ -22,7 +24,7 @@ void cgt_overlay_format(const char *format, const overlay_frame *f, char *text, 
         size_t taken = 1;
         if (strncmp(format, "{time}", 6) == 0) {
             length = isnan(f->time) ? snprintf(text + used, size - used, "%" PRId64, f->step)
-                                    : snprintf(text + used, size - used, "%g", f->time);
+                                    : snprintf(text + used, size - used, "%s", cgt_number(6, f->time).text);
             taken = 6;
         } else if (strncmp(format, "{step}", 6) == 0) {
             length = snprintf(text + used, size - used, "%" PRId64, f->step);
@@ -93,14 +95,13 @@ static void draw_ticks(const overlay *o, const canvas *c, float left, float top,
 {
     enum { MOST = 6 };
     double ticks[MOST];
-    char text[32];
     const uint32_t count = cgt_overlay_ticks(o->coloring->min, o->coloring->max, o->coloring->logarithmic, ticks, MOST);
     for (uint32_t i = 0; i < count; i++) {
         const float y = top + (1.0f - (float)share_of(o->coloring, ticks[i])) * height;
         cgt_canvas_fill(c, left, y - 0.04f * o->size, 0.3f * o->size, 0.08f * o->size, o->color);
-        snprintf(text, sizeof text, "%.6g", fabs(ticks[i]) < 1e-12 * fabs(o->coloring->max) ? 0.0 : ticks[i]);
+        const double tick = fabs(ticks[i]) < 1e-12 * fabs(o->coloring->max) ? 0.0 : ticks[i];
         if (o->font)
-            cgt_text_draw(o->font, c, left + 0.5f * o->size, y + 0.36f * o->size, text, o->color);
+            cgt_text_draw(o->font, c, left + 0.5f * o->size, y + 0.36f * o->size, cgt_number(6, tick).text, o->color);
     }
 }
 

@@ -9,6 +9,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "options/numbers.h"
+
 #ifdef CGT_HAVE_FREETYPE
 
 #include <freetype/freetype.h>
@@ -49,8 +51,8 @@ text_font *cgt_text_open(const char *path, float pixels, char *error, size_t err
                 "text needs a font, and DejaVu Sans is not where distributions put it (package fonts-dejavu-core): "
                 "give one by --font");
     } else if (FT_Set_Char_Size(font->face, (FT_F26Dot6)(64.0f * pixels), 0, 72, 72)) {
-        snprintf(error, error_size, "%s: the font has no size of %g pixels", path ? path : "DejaVu Sans",
-                 (double)pixels);
+        snprintf(error, error_size, "%s: the font has no size of %s pixels", path ? path : "DejaVu Sans",
+                 cgt_number(6, (double)pixels).text);
     } else {
         return font;
     }

@@ -201,7 +201,7 @@ static int open_mesh(renderer *r)
         program_error("--mesh: %s has no triangles", path);
         return -1;
     }
-    return render_result(r, cgt_figure_set_mesh(&r->figure, &mesh));
+    return render_result(r, cgt_figure_scene_mesh(&r->figure, &mesh));
 }
 
 static int open_report(renderer *r)

@@ -49,8 +49,8 @@ typedef struct renderer {
 /* Prints an error, the text in r->error, and returns -1. */
 int render_fail(renderer *r);
 
-/* After a call of the figure, in the thread that called: prints its notices and, where the result is not 0, its message.
- * Returns the result. */
+/* After a call of the figure, in the thread that called: prints its notices and, where the result is not 0, its
+ * message. Returns the result. */
 int render_result(renderer *r, int result);
 
 /* Writes a camera as -c takes it, in the file's coordinates. */

@@ -5,10 +5,8 @@
 #ifndef TRAJECTORY_ELEMENTS_H
 #define TRAJECTORY_ELEMENTS_H
 
-#include "data/element_symbols.h"
+#include "data/element_radii.h"
 #include "trajectory/text/text_reader.h"
-
-#define ELEMENT_DEFAULT_RADIUS 2.0f /* Angstrom: elements missing from the table, and names that are no elements */
 
 /* How a name was understood. */
 typedef enum element_reading {
@@ -20,9 +18,6 @@ typedef enum element_reading {
 
 /* The number of the element that a name stands for, from 1 for hydrogen; 0: none. The case does not matter. */
 uint32_t element_find(text_span name, element_reading *reading);
-
-/* Van der Waals radius in Angstrom of an element by its number. */
-float element_radius(uint32_t number);
 
 /* The element of this atomic mass, or 0: none has it within 0.03. Whole numbers are none: units in which atoms have a
  * mass of 1 or 2 know no elements. */

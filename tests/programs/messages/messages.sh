@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: MIT
 #
 # Every sentence of cgt-render and cgt-convert, with a command that brings it out (rows.tsv), and whether the source has
-# others: those that no command can bring out are in exceptions.tsv. The readers' sentences have tests of their own.
+# others: those that no command can bring out are in exceptions.tsv. The readers' sentences, and those
+# of <cgt/figure.h>, have tests of their own.
 #   messages.sh CGT_RENDER DATA_DIR CGT_CONVERT SOURCE
 convert_program=$(cd "$(dirname "$3")" && pwd)/$(basename "$3")
 source=$4
@@ -101,7 +102,7 @@ done <"$work/rows"
 
 for folder in figure programs/common programs/convert programs/picture programs/playback programs/render; do
     find "$source/$folder" -name '*.[ch]' -o -name '*.cpp'
-done | grep -v '/option_\(table\|rows\).c$' >"$work/files"
+done | grep -vE '/(option_table|option_rows|figure|figure_data|figure_settings)\.c$' >"$work/files"
 LC_ALL=C awk -F '\t' -v files="$work/files" -v root="$source/" -f "$source/tests/support/sentences.awk" \
     "$work/sentences" "$here/exceptions.tsv" || failures=$((failures + 1))
 

@@ -1,0 +1,41 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What was set of a figure: names and values in the order in which they count, from which figure_options are made. */
+#ifndef FIGURE_SETTINGS_H
+#define FIGURE_SETTINGS_H
+
+#include <stddef.h>
+
+#include "options/figure_options.h"
+
+typedef struct figure_setting {
+    const char *name; /* of the row */
+    char *value;      /* NULL: none */
+} figure_setting;
+
+/* All zero at first. */
+typedef struct figure_settings {
+    figure_setting *list;
+    size_t count;
+} figure_settings;
+
+/* Sets an option, and makes the options anew, whose texts are those of the settings. Returns 0, or -1 with a sentence:
+ * nothing has changed. */
+int cgt_figure_settings_set(figure_settings *s, const char *name, const char *value, figure_options *options,
+                            char *error, size_t error_size);
+
+/* Takes back all values of an option; name NULL: of all. As above. */
+int cgt_figure_settings_unset(figure_settings *s, const char *name, figure_options *options, char *error,
+                              size_t error_size);
+
+/* Makes options of the settings, which could be made before; keys of the camera are the caller's to free. Returns 0, or
+ * -1 with a sentence. */
+int cgt_figure_settings_replay(const figure_settings *s, figure_options *options, char *error, size_t error_size);
+
+/* Copies the values of an option, a line each, or all as a settings file; returns the length of the whole text. */
+size_t cgt_figure_settings_print(const figure_settings *s, const char *name, char *text, size_t size);
+
+void cgt_figure_settings_free(figure_settings *s);
+
+#endif
