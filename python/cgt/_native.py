@@ -62,9 +62,11 @@ def _load(module, name):
     constants = ffi.dlopen(None)
     major, minor = constants.CGT_VERSION_MAJOR, constants.CGT_VERSION_MINOR
     path = f"lib{name}.so.{major}" + (f".{minor}" if major == 0 else "")
-    core = os.environ.get("CGT_LIBRARY")
+    core, own = os.environ.get("CGT_LIBRARY"), os.path.join(os.path.dirname(__file__), path)
     if core:
         path = core if name == "cgt" else os.path.join(os.path.dirname(core), f"lib{name}.so")
+    elif os.path.exists(own):  # the package has it
+        path = own
     try:
         return module.ffi.dlopen(path)
     except OSError as error:
@@ -75,7 +77,7 @@ def load_part(name):
     """The definitions and the library of a part that the installed libcgt may lack: trajectory, picture."""
     try:
         module = importlib.import_module("._" + name, __package__)
-    except ImportError as error:
+    except ModuleNotFoundError as error:
         if error.name and not error.name.endswith("._" + name):
             raise
         raise ImportError(
