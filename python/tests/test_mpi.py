@@ -105,4 +105,4 @@ def test_the_code_of_the_guide_runs():
 job.close()
 print("none" if picture is None else picture.pixels.shape)
 """)
-    assert sorted(told.splitlines()) == ["(36, 64, 3)", "none"]
+    assert told.count("(36, 64, 3)") == told.count("none") == 1
