@@ -16,6 +16,7 @@ from . import _definitions
 from ._definitions import ffi
 
 
+_FLOAT = np.dtype(np.float32)
 FLOAT_MAX = float(np.finfo(np.float32).max)
 
 
@@ -127,6 +128,8 @@ def enum_value(prefix, name, what, library=lib):
 
 def whole(name, value, low=0, high=0xFFFFFFFF):
     """An int within a range, or an error that names it."""
+    if value.__class__ is int and low <= value <= high:
+        return value
     try:
         if isinstance(value, (bool, np.ndarray)) and (isinstance(value, bool) or value.ndim):
             raise TypeError
@@ -182,9 +185,12 @@ def _listed(name, value, what, of):
 def three(name, value):
     """Three floats that single precision holds, or an error that names it."""
     kind = value.__class__
-    if kind is np.ndarray and value.shape == (3,) and value.dtype.kind in "fiu":
-        value = value.tolist()
-        kind = list
+    if kind is np.ndarray and value.shape == (3,):
+        if value.dtype is _FLOAT:
+            return value.tolist()
+        if value.dtype.kind in "fiu":
+            value = value.tolist()
+            kind = list
     if (kind is list or kind is tuple) and len(value) == 3:
         x, y, z = value
         try:  # most are plain, and need no call each
