@@ -46,7 +46,7 @@ _LATER = {
                     (".trajectory", "._trajectory")),
     **dict.fromkeys(("Look", "Material", "Picture", "find_bodies"), (".picture", "._picture")),
     **dict.fromkeys(("fit_camera", "show"), ("._show", "._picture")), "colors": (".colors", "._picture"),
-    "trimesh": (".trimesh", "._definitions"),
+    "trimesh": (".trimesh", "._definitions"), "mpi": (".mpi", "._mpi"),
 }
 __all__ = [
     "AllHits", "Camera", "Capsules", "Context", "Error", "Fields", "Frame", "HitRows", "Hits", "INVALID_ID", "InUse",
@@ -63,7 +63,7 @@ if not TYPE_CHECKING:  # to which a name that is not there is an error
         if name not in _LATER:
             raise AttributeError(f"module 'cgt' has no attribute {name!r}")
         module = importlib.import_module(_LATER[name][0], __name__)
-        found = globals()[name] = module if name in ("colors", "trimesh") else getattr(module, name)
+        found = globals()[name] = module if name in ("colors", "trimesh", "mpi") else getattr(module, name)
         return found
 
 

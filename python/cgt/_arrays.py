@@ -144,9 +144,13 @@ def numbers(name: str, a, dtype: np.dtype, shape: Sequence = (), masked: Optiona
             return a.astype(dtype)
         raise InvalidArgument(f"{name}: dtype {a.dtype}: must be {'numbers' if floats else f'whole numbers, {dtype}'}")
     if floats:
-        with np.errstate(over="ignore"):
+        if dtype.itemsize >= a.itemsize:
+            return a.astype(dtype)
+        with np.errstate(over="ignore", invalid="ignore"):
             b = a.astype(dtype)
-        if b.itemsize < a.itemsize and not np.isfinite(b).all() and (np.isinf(b) & np.isfinite(a)).any():
+            flat = b.reshape(-1)
+            maybe = not math.isfinite(np.dot(flat, flat))  # of what is not finite, or large: the quickest look
+        if maybe and (np.isinf(b) & np.isfinite(a)).any():
             raise InvalidArgument(f"{name}: {a[np.isinf(b) & np.isfinite(a)].flat[0]:g}: beyond what {dtype} holds")
         return b
     if a.size and not np.can_cast(a.dtype, dtype):

@@ -16,6 +16,7 @@ from . import _definitions
 from ._definitions import ffi
 
 
+_FLOAT = np.dtype(np.float32)
 FLOAT_MAX = float(np.finfo(np.float32).max)
 
 
@@ -62,9 +63,11 @@ def _load(module, name):
     constants = ffi.dlopen(None)
     major, minor = constants.CGT_VERSION_MAJOR, constants.CGT_VERSION_MINOR
     path = f"lib{name}.so.{major}" + (f".{minor}" if major == 0 else "")
-    core = os.environ.get("CGT_LIBRARY")
+    core, own = os.environ.get("CGT_LIBRARY"), os.path.join(os.path.dirname(__file__), path)
     if core:
         path = core if name == "cgt" else os.path.join(os.path.dirname(core), f"lib{name}.so")
+    elif os.path.exists(own):  # the package has it
+        path = own
     try:
         return module.ffi.dlopen(path)
     except OSError as error:
@@ -75,7 +78,7 @@ def load_part(name):
     """The definitions and the library of a part that the installed libcgt may lack: trajectory, picture."""
     try:
         module = importlib.import_module("._" + name, __package__)
-    except ImportError as error:
+    except ModuleNotFoundError as error:
         if error.name and not error.name.endswith("._" + name):
             raise
         raise ImportError(
@@ -125,6 +128,8 @@ def enum_value(prefix, name, what, library=lib):
 
 def whole(name, value, low=0, high=0xFFFFFFFF):
     """An int within a range, or an error that names it."""
+    if value.__class__ is int and low <= value <= high:
+        return value
     try:
         if isinstance(value, (bool, np.ndarray)) and (isinstance(value, bool) or value.ndim):
             raise TypeError
@@ -180,9 +185,12 @@ def _listed(name, value, what, of):
 def three(name, value):
     """Three floats that single precision holds, or an error that names it."""
     kind = value.__class__
-    if kind is np.ndarray and value.shape == (3,) and value.dtype.kind in "fiu":
-        value = value.tolist()
-        kind = list
+    if kind is np.ndarray and value.shape == (3,):
+        if value.dtype is _FLOAT:
+            return value.tolist()
+        if value.dtype.kind in "fiu":
+            value = value.tolist()
+            kind = list
     if (kind is list or kind is tuple) and len(value) == 3:
         x, y, z = value
         try:  # most are plain, and need no call each

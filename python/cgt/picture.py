@@ -329,27 +329,35 @@ class Picture(Plain):
             The same for `linear`: contiguous, of the type of that.
         """
         with self._gate.alone:
-            begun, scene, o, shape = self._begun, self._scene, self._options, self._shape
-            if linear_out is not None and self._read[1] is None:
-                raise InvalidArgument("linear_out: the picture was made without linear")
-            pixels = np.zeros(shape, U1) if out is None else out
-            linear = linear_out if linear_out is not None or self._read[1] is None else np.zeros(
-                shape[:2], self._linear)
-            keep = [self._image("out", pixels, U1, shape)]
-            image = ffi.new("cgt_image *", {"bytes": _arrays.pointer(keep[0].view), "channels": shape[2]})
-            if linear is not None:
-                keep.append(self._image("linear_out", linear, self._linear, shape[:2]))
-                image.linear = ffi.cast("cgt_linear_pixel *", _arrays.address(keep[1].view))
-                if np.may_share_memory(keep[0].view, keep[1].view):
-                    raise InvalidArgument("linear_out: it overlaps out")
+            begun, scene, o = self._begun, self._scene, self._options
+            image, read, keep = self._image_of(out, linear_out)
             if o.shading == lib.CGT_SHADING_PLAIN:
                 with scene._gate.shared:
                     self._check_scene()
                     self._check(lib.cgt_picture_read(begun, image))
             else:
                 self._check(lib.cgt_picture_read(begun, image))
-            self._read = pixels, linear
-            return pixels
+            self._read = read
+            del keep
+            return read[0]
+
+    def _image_of(self, out: Optional[np.ndarray], linear_out: Optional[np.ndarray]):
+        """A C image over given arrays, or new ones; these; and what keeps them."""
+        shape = self._shape
+        if linear_out is not None and self._read[1] is None:
+            raise InvalidArgument("linear_out: the picture was made without linear")
+        pixels = np.zeros(shape, U1) if out is None else out
+        linear = linear_out
+        if linear is None and self._read[1] is not None:
+            linear = np.zeros(shape[:2], self._linear)
+        keep = [self._image("out", pixels, U1, shape)]
+        image = ffi.new("cgt_image *", {"bytes": _arrays.pointer(keep[0].view), "channels": shape[2]})
+        if linear is not None:
+            keep.append(self._image("linear_out", linear, self._linear, shape[:2]))
+            image.linear = ffi.cast("cgt_linear_pixel *", _arrays.address(keep[1].view))
+            if np.may_share_memory(keep[0].view, keep[1].view):
+                raise InvalidArgument("linear_out: it overlaps out")
+        return image, (pixels, linear), keep
 
     @staticmethod
     def _image(name: str, a, dtype, shape) -> Hold:

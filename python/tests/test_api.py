@@ -31,6 +31,8 @@ FUNCTIONS_LEFT_OUT = {
     "cgt_picture_set_options": "another Picture",
     **{"cgt_camera_fit_" + name: "Camera.fit" for name in ("create", "release", "add", "add_box", "apply")},
     "cgt_srgb_encode": "for pixels in C",
+    # cgt-mpi
+    "cgt_mpi_draw_rows": "rows come to rank 0", "cgt_mpi_get_scene": "a scene of one process has all calls",
     # cgt-trajectory
     "cgt_trajectory_open": "open_series of one path",
     "cgt_trajectory_find_column": "TrajectoryFrame.columns is a dictionary",
@@ -83,28 +85,32 @@ FIELDS_LEFT_OUT = {
 def parts():
     """The definitions and the library of each part that is installed, and where its structs are."""
     yield _native.ffi, _native.lib, STRUCTS
-    for name in ("picture", "trajectory"):
+    known = dict(STRUCTS)
+    for name in ("picture", "trajectory", "mpi"):
         try:
             ffi, lib = _native.load_part(name)
+            module = importlib.import_module("cgt." + name)
         except ImportError:
             continue
-        module = importlib.import_module("cgt." + name)
         if name == "picture":
             places = {name: [module.Picture] for name in ("options", "light", "lighting", "style", "bounces", "work")}
             more = {"cgt_look": [module.Look], "cgt_material": [module.Material], "cgt_image": [module.Picture],
                     "cgt_linear_pixel": [module.Picture]}
+        elif name == "mpi":
+            places, more = {"options": [module.Job], "geometry": [module.Job, geometry]}, {}
         else:
             places = {"options": [module.read, module.Trajectory], "frame": [module.TrajectoryFrame],
                       "column": [module.TrajectoryFrame]}
             more = {}
-        yield ffi, lib, {**STRUCTS, **more, **{f"cgt_{name}_{end}": place for end, place in places.items()}}
+        known.update(more, **{f"cgt_{name}_{end}": place for end, place in places.items()})
+        yield ffi, lib, known
 
 
 def package_text():
     folder = os.path.dirname(cgt.__file__)
     texts = []
     for name in sorted(os.listdir(folder)):
-        if name.endswith(".py") and name not in ("_definitions.py", "_picture.py", "_trajectory.py"):
+        if name.endswith(".py") and name not in ("_definitions.py", "_picture.py", "_trajectory.py", "_mpi.py"):
             with open(os.path.join(folder, name), encoding="utf-8") as file:
                 texts.append(file.read())
     return "".join(texts)
@@ -147,7 +153,7 @@ def test_all_fields_are_used_or_left_out():
                     missing.append(full)
     assert not missing, f"give these to Python, or tell in FIELDS_LEFT_OUT why not: {missing}"
     assert len(seen) > 20
-    if len(list(parts())) == 3:
+    if len(list(parts())) == 4:
         assert not set(FIELDS_LEFT_OUT) - seen, "no longer there"
 
 

@@ -329,7 +329,8 @@ def test_no_argument_is_left_out():
     public += [call for name, call in vars(MESH_RAYS).items() if name[:4] in ("inte", "cont")]
     # take paths, words or objects, or are made by calls
     given = set("""read sort_series Trajectory TrajectoryFrame Scene find_bodies fit_camera variants version Fields Hits
-        Frame HitRows AllHits SingleHit add remove commit close prepare set_options trace_bounced_rays intersects_location
+        Frame HitRows AllHits SingleHit add remove commit close prepare set_options trace_bounced_rays
+        intersects_location
         """.split())
     for call in public:
         if call.__name__ in given or (isinstance(call, type) and issubclass(call, BaseException)):

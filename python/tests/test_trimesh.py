@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """The intersector: what trimesh asks of one, on meshes made here."""
+import copy
+import pickle
+from fractions import Fraction
 from types import SimpleNamespace
 
 import numpy as np
@@ -92,6 +95,110 @@ def test_far_away_meshes_keep_their_digits():
     near = RayMeshIntersector(mesh).intersects_first(origins, directions)
     found = RayMeshIntersector(moved).intersects_first(origins + far, directions)
     assert (near >= 0).sum() > 30 and (near != found).mean() < 0.01
+
+
+def ball(r):
+    """A closed mesh of triangles that lean at random, at places that no float holds."""
+    rows, columns = 6, 8
+    at = np.pi * np.arange(1, rows)[:, None] / rows, 2 * np.pi * np.arange(columns) / columns
+    size = 0.7 * r.uniform(0.8, 1.2, (rows - 1, columns))
+    ring = size[..., None] * np.stack(np.broadcast_arrays(np.sin(at[0]) * np.cos(at[1]), np.sin(at[0]) * np.sin(at[1]),
+                                                          np.cos(at[0])), -1)
+    v = np.concatenate([[[0, 0, 0.7]], ring.reshape(-1, 3), [[0, 0, -0.7]]]) + [3.1, -2.3, 5.7]
+    f, last = [], len(v) - 1
+    for k in range(columns):
+        a, b = 1 + k, 1 + (k + 1) % columns
+        f += [[0, a, b], [last, last - columns + (k + 1) % columns, last - columns + k]]
+        for row in range(rows - 2):
+            f += [[a, a + columns, b + columns], [a, b + columns, b]]
+            a, b = a + columns, b + columns
+    return SimpleNamespace(vertices=v, faces=np.array(f))
+
+
+def exact_hits(mesh, origin, direction):
+    """The hits of a ray in fractions: distances and triangles, in order."""
+    def whole(x):
+        return np.array([Fraction(float(y)) for y in np.ravel(x)], object).reshape(np.shape(x))
+
+    o, d, found = whole(origin), whole(direction), []
+    for k, corners in enumerate(whole(mesh.vertices[mesh.faces])):
+        a, b, c = corners - o
+        u, v, w = d @ np.cross(c, b), d @ np.cross(a, c), d @ np.cross(b, a)
+        if min(u, v, w) >= 0 or max(u, v, w) <= 0:
+            normal = np.cross(b - a, c - a)
+            if normal @ d and (normal @ a) / (normal @ d) > 0:
+                found.append(((normal @ a) / (normal @ d), k))
+    return sorted(found)
+
+
+@pytest.mark.parametrize("distance", [0.3, 1, 1e4, 1e7, 1e10])
+def test_rays_from_anywhere_are_as_exact_as_fractions(distance):
+    r = np.random.default_rng(5)
+    mesh, n = ball(r), 8
+    rays = RayMeshIntersector(mesh)
+    directions = r.normal(size=(n, 3))
+    directions *= 10 ** r.uniform(-3, 3, (n, 1)) / np.linalg.norm(directions, axis=1)[:, None]
+    lengths = np.linalg.norm(directions, axis=1)[:, None]
+    origins = mesh.vertices.mean(axis=0) + r.uniform(-0.6, 0.6, (n, 3)) - distance * directions / lengths
+    triangle, ray, place = rays.intersects_id(origins, directions, return_locations=True)
+    first, any_hit = rays.intersects_first(origins, directions), rays.intersects_any(origins, directions)
+    one, of_one = rays.intersects_id(origins, directions, multiple_hits=False)
+    assert len(ray) > n / 2
+    for k in range(n):
+        right = exact_hits(mesh, origins[k], directions[k])
+        assert triangle[ray == k].tolist() == [found for _, found in right]
+        assert first[k] == (right[0][1] if right else -1) and any_hit[k] == bool(right)
+        assert one[of_one == k].tolist() == [found for _, found in right[:1]]
+        for (t, _), at in zip(right, place[ray == k]):
+            wanted = [float(Fraction(x) + t * Fraction(y)) for x, y in zip(origins[k].tolist(), directions[k].tolist())]
+            assert np.allclose(at, wanted, rtol=0, atol=4e-15 * max(1, distance))
+
+
+def test_rays_go_on_from_where_they_hit():
+    r = np.random.default_rng(6)
+    mesh = ball(r)
+    rays = RayMeshIntersector(mesh)
+    directions = r.normal(size=(400, 3))
+    origins = mesh.vertices.mean(axis=0) - 3 * directions / np.linalg.norm(directions, axis=1)[:, None]
+    triangle, ray, place = rays.intersects_id(origins, directions, return_locations=True)
+    later, of_hit = rays.intersects_id(place, directions[ray])
+    for k in range(len(ray)):
+        rest = triangle[k + 1:][ray[k + 1:] == ray[k]]
+        assert later[of_hit == k].tolist() == rest.tolist()
+    first = rays.intersects_first(place, directions[ray])
+    assert [f >= 0 for f in first] == [(ray[k + 1:] == ray[k]).any() for k in range(len(ray))]
+
+
+def test_walls_come_in_pairs_however_thin():
+    for thickness in (1e-3, 1e-6, 1e-9, 1e-12):
+        plate = box(2)
+        plate.vertices[:, 2] *= thickness
+        for distance in (1, 1e3, 1e6):
+            rays = RayMeshIntersector(plate)
+            tri, _ = rays.intersects_id([[0.3, 0.1, distance], [100.3, 100.1, distance]],
+                                        [[0, 0, -1], [-100, -100, -distance]])
+            assert len(tri) == 4, (thickness, distance)
+    two = box(2)
+    two = SimpleNamespace(vertices=np.concatenate([two.vertices, two.vertices + [0, 0, 2]]),
+                          faces=np.concatenate([two.faces, two.faces + 8]))
+    assert len(RayMeshIntersector(two).intersects_id([[0.3, 0.1, 9]], [[0, 0, -1]])[0]) == 4
+    grid = np.stack(np.meshgrid(np.arange(-5, 6) / 4, np.arange(-5, 6) / 4, [9.0]), -1).reshape(-1, 3)
+    down = np.tile([0, 0, -1.0], (len(grid), 1))  # through edges, vertices and along sides, too
+    tri, ray = RayMeshIntersector(two).intersects_id(grid, down)
+    count = np.bincount(ray, minlength=len(grid))
+    assert set(count) == {0, 4} and (count[(np.abs(grid[:, :2]) < 1).all(axis=1)] == 4).all()
+    assert ((RayMeshIntersector(two).intersects_first(grid, down) >= 0) == (count > 0)).all()
+    assert (RayMeshIntersector(two).intersects_any(grid, down) == (count > 0)).all()
+
+
+def test_meshes_with_an_intersector_are_copied():
+    mesh = box()
+    mesh.ray = RayMeshIntersector(mesh)
+    mesh.ray.intersects_any([[0, 0, -5]], [[0, 0, 1]])
+    for make in (copy.copy, copy.deepcopy, lambda m: pickle.loads(pickle.dumps(m))):
+        other = make(mesh)
+        assert make(other.ray).intersects_first([[0.1, 0.2, -5]], [[0, 0, 1]]) == mesh.ray.intersects_first(
+            [[0.1, 0.2, -5]], [[0, 0, 1]])
 
 
 def test_changes_are_seen():
