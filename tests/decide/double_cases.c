@@ -104,11 +104,10 @@ void double_case_make(test_random *r, double_family f, bool sphere, oracle_primi
 
 cgt_primitive double_case_shape_of(const oracle_primitive *q)
 {
-    cgt_primitive primitive = {.kind = q->kind == ORACLE_SPHERE ? CGT_KIND_SPHERES : CGT_KIND_TRIANGLES};
-    if (q->kind == ORACLE_SPHERE)
-        primitive.sphere = (cgt_sphere){q->data[0], q->data[1], q->data[2], q->data[3]};
-    else
-        memcpy(primitive.triangle.v, q->data, sizeof primitive.triangle.v);
+    cgt_primitive primitive = {.kind = q->kind == ORACLE_SPHERE    ? CGT_KIND_SPHERES
+                                       : q->kind == ORACLE_CAPSULE ? CGT_KIND_CAPSULES
+                                                                   : CGT_KIND_TRIANGLES};
+    memcpy(&primitive.triangle, q->data, (size_t)oracle_floats(q->kind) * sizeof *q->data);
     return primitive;
 }
 

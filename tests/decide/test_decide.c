@@ -154,4 +154,19 @@ TEST(packets_hand_out_the_canonical_bits)
     }
 }
 
+/* From inside, where the range begins at minus infinity and the near root is below the range of float. */
+TEST(near_roots_below_the_range_of_float)
+{
+    const float r = 0x1p110f * (1 + 0x1p-23f);
+    const oracle_primitive inside[] = {{ORACLE_SPHERE, 0, 0, {-0x1p110f, 0, 0, r}},
+                                       {ORACLE_CAPSULE, 0, 0, {-0x1p110f, 0, 0, -0x1p111f, 0, 0, r}}};
+    const truth_ray ray = {.dir = {0x1p-20f, 0, 0}, .t_min = -INFINITY, .t_max = INFINITY};
+    decision_counts count = {0};
+    for (size_t k = 0; k < TEST_COUNT(inside); k++) {
+        cgt_decided_hit hit;
+        assert_true(judge_decision(&inside[k], &ray, &hit, &count));
+        assert_true(hit.far && count.ulp <= 0.51);
+    }
+}
+
 SEEDED_SUITE("test_decide", NULL, NULL)

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The values of capsules' hits that a vector computes have the same bits as those of one ray, which the test
- * oracle_capsules judges, and a vector computes nearly all of an ordinary picture. */
+ * The values of capsules' hits that a vector computes have the same bits as those of one ray, which
+ * tests/driver judges, and a vector computes nearly all of an ordinary picture. */
 #include "primitive/lane_cases.h"
 #include "support/suite.h"
 

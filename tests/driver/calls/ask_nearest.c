@@ -160,6 +160,22 @@ static void check_alone(driver_run *run, const full_hit *hit)
     }
 }
 
+/* A call that wants ids alone finds the same ones. */
+static void check_ids(driver_run *run, const full_hit *hit)
+{
+    static uint32_t primitive[DRIVER_RAYS], geometry[DRIVER_RAYS];
+    const cgt_rays rays = make_arrays(run, 0, run->rays);
+    const cgt_hits ids = {.primitive = primitive, .geometry = random_below(&run->scene.random, 2) ? geometry : NULL};
+    const test_trace_options o = driver_options(run, CGT_PRECISION_EXACT);
+    if (!driver_succeeds(run, cgt_trace_rays(run->setup.scene, &rays, &ids, TRACE_OPTIONS(&o)), "cgt_trace_rays"))
+        return;
+    for (uint32_t i = 0; i < run->rays; i++)
+        if (primitive[i] != hit[i].primitive || (ids.geometry && geometry[i] != hit[i].geometry))
+            driver_fail(run, &run->ray[i], "cgt_trace_rays, ids alone", "another hit, of primitive %d",
+                        (int)primitive[i]);
+    run->count[COUNT_ANSWERS] += run->rays;
+}
+
 static void ask(driver_run *run)
 {
     static full_hit hit[DRIVER_RAYS];
@@ -176,6 +192,8 @@ static void ask(driver_run *run)
         judge_hits(run, d, hit, occluded);
     }
     check_alone(run, hit);
+    if (random_below(r, 4) == 0)
+        check_ids(run, hit);
 }
 
 const driver_call call_nearest = {NULL, ask};

@@ -47,7 +47,8 @@ static const float *target(judge_scene *s, float p[3])
     if (!at)
         return NULL;
     const float *const c = at->data, u = 0.25f * (float)random_below(r, 5);
-    const float reach = across_axis(r, c, out) && random_below(r, 3) ? c[6] : 0;
+    const float inside = random_below(r, 2) ? 1 - ldexpf(0.5f, -(int)random_below(r, 24)) : 1; /* all but a tangent */
+    const float reach = across_axis(r, c, out) && random_below(r, 3) ? inside * c[6] : 0;
     for (int a = 0; a < 3; a++)
         p[a] = c[a] + u * (c[3 + a] - c[a]) + reach * out[a];
     return c;

@@ -88,7 +88,8 @@ void unusual_lines(judge_scene *s, judge_ray *ray, uint32_t count)
 
 void slow_lines(judge_scene *s, judge_ray *ray, uint32_t count)
 {
-    const int scale = ilogbf(s->scale), least = scale > 0 ? scale - 140 : -140;
+    const int scale = ilogbf(s->scale), slow = scale - 126 - (int)random_below(&s->random, 15),
+              least = slow > -140 ? slow : -140;
     float place[3];
     line_place(s, place);
     for (uint32_t i = 0; i < count; i++) {

@@ -2,25 +2,20 @@
  * SPDX-License-Identifier: MIT
  *
  * Numbers in text files: the fast path gives the bits of strtof and strtod for every kind of number. */
+#include "support/random.h"
 #include "support/suite.h"
+#include "support/test.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "trajectory/text/text_reader.h"
 
-static uint64_t seed, random_state;
+static test_random numbers;
 
-static uint64_t next_random(void)
-{
-    random_state ^= random_state << 13;
-    random_state ^= random_state >> 7;
-    random_state ^= random_state << 17;
-    return random_state;
-}
+static uint64_t next_random(void) { return random_bits(&numbers); }
 
 static text_span span_of(const char *text)
 {
@@ -48,10 +43,9 @@ static void compare(const char *text)
     float f = 0, f_wanted = strtof(text, NULL);
     double d = 0, d_wanted = strtod(text, NULL);
     if (!text_float(span_of(text), &f) || (float_bits(f) != float_bits(f_wanted) && !isnan(f_wanted)))
-        fail_msg("'%s' as a float: %.9g, not %.9g (seed %llu)", text, (double)f, (double)f_wanted,
-                 (unsigned long long)seed);
+        fail_msg("'%s' as a float: %.9g, not %.9g", text, (double)f, (double)f_wanted);
     if (!text_double(span_of(text), &d) || (double_bits(d) != double_bits(d_wanted) && !isnan(d_wanted)))
-        fail_msg("'%s' as a double: %.17g, not %.17g (seed %llu)", text, d, d_wanted, (unsigned long long)seed);
+        fail_msg("'%s' as a double: %.17g, not %.17g", text, d, d_wanted);
 }
 
 TEST(random_numbers_have_the_right_bits)
@@ -182,9 +176,7 @@ TEST(quotes_are_safe_to_print)
 
 int main(void)
 {
-    const char *given = getenv("CGT_TEST_SEED");
-    seed = given != NULL ? strtoull(given, NULL, 10) : (uint64_t)time(NULL);
-    random_state = (seed + 1) * 0x9e3779b97f4a7c15u | 1;
-    print_message("CGT_TEST_SEED=%llu\n", (unsigned long long)seed);
+    test_begin("test_trajectory_text");
+    numbers = random_make(1);
     return SUITE_RUN(NULL, NULL);
 }
