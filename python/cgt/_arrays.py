@@ -9,7 +9,7 @@ from typing import Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
-from ._native import InvalidArgument, ffi, lib
+from ._native import FLOAT_MAX, InvalidArgument, ffi, lib
 
 F2, F4, F8, U8, I8, U4, I4, U2, U1 = (np.dtype(t) for t in ("f2", "f4", "f8", "u8", "i8", "u4", "i4", "u2", "u1"))
 FORMAT = {F4: "FLOAT", F8: "DOUBLE", F2: "HALF", U1: "UINT8", U2: "UINT16", U4: "UINT32", I4: "UINT32", U8: "UINT64",
@@ -144,13 +144,12 @@ def numbers(name: str, a, dtype: np.dtype, shape: Sequence = (), masked: Optiona
             return a.astype(dtype)
         raise InvalidArgument(f"{name}: dtype {a.dtype}: must be {'numbers' if floats else f'whole numbers, {dtype}'}")
     if floats:
-        if dtype.itemsize >= a.itemsize:
+        fits = dtype.itemsize >= a.itemsize or a.dtype.kind != "f" or not a.size
+        if fits or (np.minimum.reduce(a, axis=None) >= -FLOAT_MAX and np.maximum.reduce(a, axis=None) <= FLOAT_MAX):
             return a.astype(dtype)
-        with np.errstate(over="ignore", invalid="ignore"):
+        with np.errstate(over="ignore"):
             b = a.astype(dtype)
-            flat = b.reshape(-1)
-            maybe = not math.isfinite(np.dot(flat, flat))  # of what is not finite, or large: the quickest look
-        if maybe and (np.isinf(b) & np.isfinite(a)).any():
+        if (np.isinf(b) & np.isfinite(a)).any():
             raise InvalidArgument(f"{name}: {a[np.isinf(b) & np.isfinite(a)].flat[0]:g}: beyond what {dtype} holds")
         return b
     if a.size and not np.can_cast(a.dtype, dtype):
@@ -259,7 +258,7 @@ class Outputs:
     """
 
     def __init__(self, shape, fields, kinds, out=None):
-        self.shape = tuple(shape)
+        self.shape, self.is_own = tuple(shape), out is None
         self.arrays: Dict[str, np.ndarray] = {}
         self.keep: List[Hold] = []
         if not (out is None or isinstance(out, Mapping) or (isinstance(out, np.ndarray) and out.dtype.names)):
@@ -290,6 +289,11 @@ class Outputs:
 
     def strides(self, axes: int) -> Tuple[Tuple[int, ...], Tuple[int, ...]]:
         """The strides of numbers and of vectors along the first `axes` axes, in bytes."""
+        if self.is_own:  # side by side, of 4 bytes
+            kinds = {a.ndim > len(self.shape) for a in self.arrays.values()}
+            rows = (max(self.shape[1], 1),) if axes == 2 else ()
+            narrow, wide = (tuple(size * n for n in (*rows, 1)) for size in (4, 12))
+            return narrow if False in kinds else (), wide if True in kinds else ()
         found: List[Optional[Tuple[int, ...]]] = [None, None]
         for field, a in self.arrays.items():
             a = np.asarray(a)

@@ -82,6 +82,7 @@ def _flat(outputs: Outputs, shape) -> Outputs:
         return outputs
     count = math.prod(shape)
     flat = Outputs((count,), (), {})
+    flat.is_own = outputs.is_own
     for name, a in outputs.arrays.items():
         view = a.reshape((count,) + a.shape[len(shape):])
         if a.size and not np.shares_memory(view, a):
