@@ -29,7 +29,7 @@ import cffi
 
 CORE = ("bounces", "all_hits", "research")
 HERE = os.path.dirname(os.path.abspath(__file__))
-SOURCES = ("CMakeLists.txt", "LICENSE", "cmake", "include", "simd", "src", "backends", "picture", "mpi", "programs")
+SOURCES = ("CMakeLists.txt", "LICENSE", "cmake", "include", "simd", "src", "backends", "figure", "picture", "mpi", "programs")
 VERSION_FILE = os.path.join("include", "cgt", "version.h")
 
 

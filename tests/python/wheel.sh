@@ -15,7 +15,7 @@ unset CGT_PREFIX CGT_LIBRARY PYTHONPATH
 export CC="$cc" PYTHONDONTWRITEBYTECODE=1 CGT_CMAKE="-DCGT_ONLY_VARIANTS=sse" CCACHE_BASEDIR="$work" CCACHE_NOHASHDIR=1
 
 mkdir "$work/tree"
-for name in CMakeLists.txt LICENSE cmake include simd src backends picture mpi programs python; do
+for name in CMakeLists.txt LICENSE cmake include simd src backends figure picture mpi programs python; do
     cp -r "$source/$name" "$work/tree/"
 done
 find "$work/tree" | sort >"$work/files"
