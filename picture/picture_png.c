@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * PNG files (W3C, "Portable Network Graphics Specification") without a dependency: rows are filtered, runs of a byte and
- * single bytes get a Huffman code for each block (RFC 1951). Backgrounds and smooth shades, which pictures consist of,
- * leave little to the searches for strings that a compressor makes besides. */
+ * PNG files (W3C, "Portable Network Graphics Specification") without a dependency: rows are filtered, runs of a byte
+ * and single bytes get a Huffman code for each block (RFC 1951). Backgrounds and smooth shades, which pictures consist
+ * of, leave little to the searches for strings that a compressor makes besides. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>

@@ -14,15 +14,15 @@
 extern "C" {
 #endif
 
-/* Returns the names of the colour maps, ended by NULL: readable without red-green vision, and perceptually uniform but for
- * coolwarm. The first, "viridis", is the default. coolwarm, vik and berlin diverge from a neutral middle, the last from a
- * dark one, for values about 0; romaO and vikO end as they begin, for phases and angles. */
+/* Returns the names of the colour maps, ended by NULL: readable without red-green vision, and perceptually uniform but
+ * for coolwarm. The first, "viridis", is the default. coolwarm, vik and berlin diverge from a neutral middle, the last
+ * from a dark one, for values about 0; romaO and vikO end as they begin, for phases and angles. */
 CGT_API const char *const *cgt_get_colormap_names(void);
 
 typedef struct cgt_colormap cgt_colormap;
 
-/* Returns the map of a name, NULL: the first; or NULL if there is none of that name. A name with "_r" behind it is the map
- * from its end to its start. It is valid forever. */
+/* Returns the map of a name, NULL: the first; or NULL if there is none of that name. A name with "_r" behind it is the
+ * map from its end to its start. It is valid forever. */
 CGT_API const cgt_colormap *cgt_find_colormap(const char *name);
 
 /* Gets the colour of a map at x, from 0, its start, to 1, its end; others are clamped, NaN counts as 0.

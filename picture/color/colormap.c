@@ -8,10 +8,10 @@
  * vision deficiency" (PLoS ONE 13, 2018). All of these are published with matplotlib and dedicated to the public domain
  * under CC0. batlow, vik, berlin, romaO and vikO are by Fabio Crameri, "Scientific colour maps" 7.0.1 (Zenodo,
  * doi:10.5281/zenodo.5501399), Copyright (c) 2021 Fabio Crameri, MIT License, as GMT 6.4 has them. coolwarm is computed
- * by Kenneth Moreland's rule, "Diverging Color Maps for Scientific Visualization" (ISVC 2009). The tables hold every fifth of their 256 entries, rounded to
- * 8 bits; lines between them stay within four 8-bit steps of the full tables. The colours of kinds are those of
- * Masataka Okabe and Kei Ito, "Color Universal Design" (2008), with a grey in place of their black, on which shading
- * would not show. */
+ * by Kenneth Moreland's rule, "Diverging Color Maps for Scientific Visualization" (ISVC 2009). The tables hold every
+ * fifth of their 256 entries, rounded to 8 bits; lines between them stay within four 8-bit steps of the full tables.
+ * The colours of kinds are those of Masataka Okabe and Kei Ito, "Color Universal Design" (2008), with a grey in place
+ * of their black, on which shading would not show. */
 #include <cgt/color.h>
 
 #include <stdbool.h>
