@@ -129,6 +129,27 @@ static void choose_bar(cgt_figure *figure)
                         "--legend: the colours are those of neither types nor elements: there is no legend");
 }
 
+/* Tells what the font lacks: it would be empty boxes. */
+static void check_glyphs(cgt_figure *figure)
+{
+    const overlay *v = &figure->overlay;
+    const char *texts[4 + OVERLAY_MOST_KINDS] = {v->title, v->time, v->bar, v->legend};
+    char missing[64] = "";
+    uint32_t first = 0, count = 4;
+    for (uint32_t i = 0; i < v->kind_count && count < 4 + OVERLAY_MOST_KINDS; i++)
+        texts[count++] = v->kinds[i].name;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t code = texts[i] ? cgt_text_find_missing(v->font, texts[i], missing, sizeof missing) : 0;
+        first = first ? first : code;
+    }
+    if (first)
+        cgt_notices_add(
+            &figure->notices,
+            "the font lacks %s: boxes stand in their place; --font takes another one, and 'fc-list :charset=%" PRIx32
+            "' tells which have them",
+            missing, first);
+}
+
 static int choose_overlay(cgt_figure *figure)
 {
     const picture_options *o = &figure->options.picture;
@@ -148,6 +169,7 @@ static int choose_overlay(cgt_figure *figure)
         choose_legend(figure);
     else
         choose_bar(figure);
+    check_glyphs(figure);
     const float grey = back[0] + back[1] + back[2] > 384 ? 0.01f : 0.85f; /* dark on light, light on dark */
     for (int c = 0; c < 3; c++)
         v->color[c] = grey;

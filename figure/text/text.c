@@ -8,6 +8,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "options/numbers.h"
 
@@ -99,6 +100,22 @@ float cgt_text_width(const text_font *font, const char *utf8)
     return width;
 }
 
+uint32_t cgt_text_find_missing(const text_font *font, const char *utf8, char *missing, size_t size)
+{
+    uint32_t code, first = 0;
+    for (const char *at = utf8; (code = next_character(&utf8)) != 0; at = utf8) {
+        char character[5] = "";
+        const size_t length = strlen(missing);
+        memcpy(character, at, (size_t)(utf8 - at));
+        if (FT_Get_Char_Index(font->face, code) || strstr(missing, character))
+            continue;
+        first = first ? first : code;
+        if (length + strlen(character) < size)
+            memcpy(missing + length, character, strlen(character) + 1);
+    }
+    return first;
+}
+
 static void draw_bitmap(const canvas *c, FT_GlyphSlot glyph, int32_t x, int32_t y, const float color[3])
 {
     const FT_Bitmap *b = &glyph->bitmap;
@@ -142,6 +159,15 @@ float cgt_text_width(const text_font *font, const char *utf8)
     (void)font;
     (void)utf8;
     return 0.0f;
+}
+
+uint32_t cgt_text_find_missing(const text_font *font, const char *utf8, char *missing, size_t size)
+{
+    (void)font;
+    (void)utf8;
+    (void)missing;
+    (void)size;
+    return 0;
 }
 
 void cgt_text_draw(const text_font *font, const canvas *c, float x, float y, const char *utf8, const float color[3])

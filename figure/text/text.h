@@ -6,6 +6,7 @@
 #define TEXT_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "text/canvas.h"
 
@@ -18,6 +19,10 @@ void cgt_text_close(text_font *font); /* NULL is ignored */
 
 /* Width of a text in UTF-8, in pixels. What is no UTF-8 counts as one unknown character a byte. */
 float cgt_text_width(const text_font *font, const char *utf8);
+
+/* Appends the characters of a text that the font lacks to `missing`, each once, as far as it has room, and returns the
+ * code of the first of them that was not there yet; 0: none. */
+uint32_t cgt_text_find_missing(const text_font *font, const char *utf8, char *missing, size_t size);
 
 /* Draws a text from x on, with its baseline at y; color is linear. */
 void cgt_text_draw(const text_font *font, const canvas *c, float x, float y, const char *utf8, const float color[3]);

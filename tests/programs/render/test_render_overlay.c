@@ -236,6 +236,18 @@ TEST(texts_are_drawn_where_there_is_a_font)
     assert_true(fabsf(cgt_text_width(o.font, "\xc3\xa9") - cgt_text_width(o.font, "e")) < 2.0f);
     assert_true(cgt_text_width(o.font, "\xff\xc3") > 0.0f);
     cgt_text_draw(o.font, &c, 1e4f, -1e4f, "outside \xe2\x82", white);
+    /* what DejaVu Sans lacks, each once; nothing of Latin, Greek and units */
+    char missing[12] = "";
+    assert_int_equal(cgt_text_find_missing(o.font, "\xc3\x85, \xc2\xb5, \xce\xb1 \xe2\x86\x92 100 \xc2\xb0", missing,
+                                           sizeof missing),
+                     0);
+    assert_int_equal(cgt_text_find_missing(o.font, "\xe6\xb8\xa9\xe5\xba\xa6 T \xe6\xb8\xa9", missing, sizeof missing),
+                     0x6e29);
+    assert_string_equal(missing, "\xe6\xb8\xa9\xe5\xba\xa6");
+    assert_int_equal(cgt_text_find_missing(o.font, "\xe5\xba\xa6", missing, sizeof missing), 0);
+    cgt_text_find_missing(o.font, "\xe4\xb8\x80\xe4\xba\x8c\xe4\xb8\x89", missing,
+                          sizeof missing); /* as far as there is room */
+    assert_int_equal(strlen(missing), 9);
     cgt_text_close(o.font);
     cgt_coloring_free(&k);
 }
