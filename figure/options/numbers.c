@@ -98,13 +98,31 @@ float cgt_scan_float(const char *text, char **end)
     return number;
 }
 
+static void put_point(char *text)
+{
+    const char *const point = localeconv()->decimal_point;
+    char *const at = strstr(text, point);
+    if (!at)
+        return;
+    *at = '.';
+    memmove(at + 1, at + strlen(point), strlen(at + strlen(point)) + 1);
+}
+
 number_text cgt_number(int digits, double value)
 {
     number_text n;
     snprintf(n.text, sizeof n.text, "%.*g", digits, value);
-    char *const at = strstr(n.text, localeconv()->decimal_point);
-    if (at && strlen(localeconv()->decimal_point) == 1)
-        *at = '.';
+    put_point(n.text);
+    return n;
+}
+
+number_text cgt_fixed(int decimals, double value)
+{
+    number_text n;
+    if (!(fabs(value) < 1e15))
+        return cgt_number(6, value);
+    snprintf(n.text, sizeof n.text, "%.*f", decimals, value);
+    put_point(n.text);
     return n;
 }
 

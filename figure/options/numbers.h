@@ -24,6 +24,9 @@ typedef struct number_text {
 } number_text;
 number_text cgt_number(int digits, double value);
 
+/* The same with so many decimals, 0 to 9, where the number is below 10^15. */
+number_text cgt_fixed(int decimals, double value);
+
 /* A whole number from min to max, decimal digits only. */
 int cgt_read_u64(const char *text, uint64_t min, uint64_t max, uint64_t *value, char *error, size_t error_size);
 int cgt_read_u32(const char *text, uint32_t min, uint32_t max, uint32_t *value, char *error, size_t error_size);

@@ -118,7 +118,8 @@ const option_row cgt_figure_rows[] = {
      OTHERWISE("1")},
     {"title", 0, "TEXT", "A title over the picture", TEXT(picture.title)},
     {"time", 0, "FORMAT",
-     "Time below the picture; {time}, {step} and {frame} in the format are replaced, such as 't = {time} ps'",
+     "Time below the picture; {time}, {step} and {frame} in the format are replaced, such as 't = {time} ps'; "
+     "{time:.2f} has two decimals in all frames",
      TEXT(picture.time), OTHERWISE("")},
     {"colorbar", 0, "TITLE",
      "A bar with the colours' values, with this title, such as 'speed, nm/ps'; of types and elements a legend",

@@ -15,6 +15,17 @@ static const float margin = 0.9f;
 
 /* ---- Text --------------------------------------------------------------------------------------------------- */
 
+/* Of {time} or {time:.2f}, with one digit of decimals; 0: there is neither. */
+static size_t time_length(const char *format)
+{
+    if (strncmp(format, "{time}", 6) == 0)
+        return 6;
+    return strncmp(format, "{time:.", 7) == 0 && format[7] >= '0' && format[7] <= '9' && format[8] == 'f' &&
+                   format[9] == '}'
+               ? 10
+               : 0;
+}
+
 void cgt_overlay_format(const char *format, const overlay_frame *f, char *text, size_t size)
 {
     size_t used = 0;
@@ -22,10 +33,12 @@ void cgt_overlay_format(const char *format, const overlay_frame *f, char *text, 
     while (*format && used + 1 < size) {
         int length = 1;
         size_t taken = 1;
-        if (strncmp(format, "{time}", 6) == 0) {
+        const size_t time = time_length(format);
+        if (time) {
+            const number_text number = time == 6 ? cgt_number(6, f->time) : cgt_fixed(format[7] - '0', f->time);
             length = isnan(f->time) ? snprintf(text + used, size - used, "%" PRId64, f->step)
-                                    : snprintf(text + used, size - used, "%s", cgt_number(6, f->time).text);
-            taken = 6;
+                                    : snprintf(text + used, size - used, "%s", number.text);
+            taken = time;
         } else if (strncmp(format, "{step}", 6) == 0) {
             length = snprintf(text + used, size - used, "%" PRId64, f->step);
             taken = 6;

@@ -43,7 +43,7 @@ typedef struct overlay_frame {
 
 void cgt_overlay_draw(const overlay *o, const canvas *c, const overlay_frame *frame);
 
-/* Replaces {time}, {step} and {frame}; text is cut to size. */
+/* Replaces {time}, {time:.2f} with so many decimals, {step} and {frame}; text is cut to size. */
 void cgt_overlay_format(const char *format, const overlay_frame *frame, char *text, size_t size);
 
 /* Ticks between min and max, min < max, rising: multiples of 1, 2 or 5 times a power of ten; with logarithmic, 0 < min,
