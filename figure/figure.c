@@ -204,7 +204,7 @@ static int place_frame(cgt_figure *figure, const cgt_figure_data *data)
         return -1;
     if (endless)
         cgt_notices_add(&figure->notices,
-                        "frame %" PRIu64 " has a molecule that is bonded to its own image: it stays cut somewhere",
+                        "frame %" PRIu64 " has a molecule that is bonded to its own image: it stays as it is",
                         s->frame.number);
     return 0;
 }
@@ -303,6 +303,12 @@ static int check_frame(cgt_figure *figure)
         return cgt_figure_fail(figure, "frame %" PRIu64 " is of another kind than those before it", f->number);
     if (f->kind == CGT_TRAJECTORY_TRIANGLES && figure->coloring.by == COLORING_TYPE && !f->type)
         return cgt_figure_fail(figure, "color type: the triangles have no types");
+    char bonds[256] = "";
+    if (!figure->has_bonds_told && cgt_figure_check_bonds(&figure->options, f, bonds, sizeof bonds))
+        return cgt_figure_fail(figure, "%s", bonds);
+    if (*bonds)
+        cgt_notices_add(&figure->notices, "%s", bonds);
+    figure->has_bonds_told = 1;
     return 0;
 }
 

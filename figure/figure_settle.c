@@ -184,6 +184,8 @@ int cgt_figure_choose_colors(cgt_figure *figure)
     double min = o->range_min, max = o->range_max;
     if (!o->has_range)
         cgt_coloring_choose_range(&figure->survey, by, axis, o->logarithmic, figure->origin, &min, &max);
+    if (o->is_symmetric)
+        cgt_coloring_make_symmetric(&min, &max);
     if (!figure_is_moved(figure)) { /* near 0 single precision does, and is what settings are printed in */
         min = (double)(float)min;
         max = (double)(float)max;
@@ -203,6 +205,28 @@ int cgt_figure_choose_colors(cgt_figure *figure)
     figure->coloring.logarithmic = o->logarithmic && by != COLORING_TYPE && by != COLORING_PLAIN && min > 0.0;
     if (o->logarithmic && !figure->coloring.logarithmic)
         cgt_notices_add(&figure->notices, "--log-scale: there is nothing above 0 to scale: the scale is linear");
+    return 0;
+}
+
+/* ---- Bonds -------------------------------------------------------------------------------------------------- */
+
+int cgt_figure_check_bonds(const figure_options *o, const cgt_trajectory_frame *frame, char *text, size_t size)
+{
+    const char *const asks = o->particles.bonds && !(o->particles.bond_distance > 0.0f) ? "--bonds"
+                             : o->whole                                                 ? "--whole"
+                             : o->unwrap                                                ? "--unwrap"
+                                                                                        : NULL;
+    *text = '\0';
+    if (!asks || frame->kind == CGT_TRAJECTORY_TRIANGLES)
+        return 0;
+    if (frame->bond_source == CGT_TRAJECTORY_BONDS_UNKNOWN && strcmp(asks, "--bonds") == 0) {
+        snprintf(text, size, "--bonds: the file has no bonds; give the longest distance of two that are bonded");
+        return -1;
+    }
+    if (frame->bond_source == CGT_TRAJECTORY_BONDS_GUESSED)
+        snprintf(text, size, "%s: the file has no bonds: they are guessed by the covalent radii of its elements", asks);
+    if (frame->bond_source == CGT_TRAJECTORY_BONDS_BOTH)
+        snprintf(text, size, "%s: the file lists some bonds: the others are guessed by covalent radii", asks);
     return 0;
 }
 

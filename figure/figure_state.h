@@ -70,7 +70,7 @@ struct cgt_figure {
     overlay_kind kinds[OVERLAY_MOST_KINDS]; /* of its legend */
 
     /* Of <cgt/figure.h> alone. */
-    int is_settled, is_surveying;
+    int is_settled, is_surveying, has_bonds_told;
     survey_team team;  /* while is_surveying */
     uint64_t next;     /* number of the frame that follows the last one */
     figure_data data;  /* the frame at hand, of the caller's columns */
@@ -119,6 +119,10 @@ int cgt_figure_move_cameras(cgt_figure *figure);
 
 /* After that, in this order: what the colours show and their range; the camera. */
 int cgt_figure_choose_colors(cgt_figure *figure);
+
+/* Writes where the bonds of a run come from, by its first frame, where options ask and it is not the file alone: "" if
+ * there is nothing to tell. Returns -1 if --bonds has none. */
+int cgt_figure_check_bonds(const figure_options *o, const cgt_trajectory_frame *frame, char *text, size_t size);
 int cgt_figure_choose_camera(cgt_figure *figure);
 
 /* The rest: ambient rays, the first light, which is over the left shoulder of the first camera and does not follow an

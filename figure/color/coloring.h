@@ -6,6 +6,7 @@
 #ifndef COLORING_H
 #define COLORING_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -73,5 +74,13 @@ coloring_by cgt_coloring_choose(const survey *s);
 /* The values at the ends of the map; they stay as they are where the survey knows of none. axis: that points up. */
 void cgt_coloring_choose_range(const survey *s, coloring_by by, int axis, int logarithmic, const double origin[3],
                                double *min, double *max);
+
+/* Widens a range to one about 0. */
+static inline void cgt_coloring_make_symmetric(double *min, double *max)
+{
+    const double most = fmax(fabs(*min), fabs(*max));
+    *min = -most;
+    *max = most;
+}
 
 #endif

@@ -246,6 +246,7 @@ static int take_bonds(const data_reader *r)
                           r->from->points.count);
     r->to->frame.bonds = b->count;
     r->to->frame.bond = b->ends;
+    r->to->frame.bond_source = b->ends ? CGT_TRAJECTORY_BONDS_LISTED : CGT_TRAJECTORY_BONDS_UNKNOWN;
     return 0;
 }
 

@@ -109,7 +109,7 @@ int cgt_figure_options_finish(figure_options *o, char *error, size_t size)
     if (o->floor.is_set && o->picture.shadows < 0)
         o->picture.shadows = 1; /* in all styles: what casts none seems to float */
     take_style(&o->picture);
-    if (o->logarithmic && o->has_range && !(o->range_min > 0.0))
+    if (o->logarithmic && (o->is_symmetric || (o->has_range && !(o->range_min > 0.0))))
         return refuse(error, size, "--log-scale: the range must be above 0");
     if (o->keys.count && o->orbit != 0.0f)
         return refuse(error, size, "--camera-keys and --orbit exclude each other");

@@ -169,6 +169,7 @@ typedef struct figure_options {
     const cgt_colormap *map;
     int has_range;
     double range_min, range_max; /* of the colours; where has_range */
+    int is_symmetric;            /* else the range that is found is made one about 0 */
 } figure_options;
 
 /* Fills in the defaults. */

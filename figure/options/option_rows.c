@@ -60,10 +60,10 @@ const option_row cgt_figure_rows[] = {
      "for angles romaO, vikO; NAME_r is reversed",
      PARSED(map, cgt_parse_colormap),
      .words = "viridis plasma cividis magma inferno batlow coolwarm vik berlin romaO vikO"},
-    {"range", 0, "MIN,MAX",
+    {"range", 0, "MIN,MAX|symmetric",
      "Values at the ends of the map; default: the 1 % and the 99 % quantile of the run's values, for speeds 0 and the "
-     "99 % quantile; for id and height the whole range",
-     WHOLE(cgt_parse_range)},
+     "99 % quantile; for id and height the whole range. symmetric: as far below 0 as above",
+     WHOLE(cgt_parse_range), .words = "symmetric"},
     {"log-scale", 0, NULL, "Equal steps of colour are equal ratios of the value, which is above 0", FLAG(logarithmic)},
     {"light", 0, "X,Y,Z", "Direction towards the light; default: over the first camera's left shoulder",
      PARSED(light, cgt_parse_direction), GIVEN(has_light)},

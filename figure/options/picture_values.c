@@ -66,6 +66,10 @@ int cgt_parse_range(const char *text, void *to, char *error, size_t size)
 {
     figure_options *o = to;
     double v[2];
+    o->is_symmetric = strcmp(text, "symmetric") == 0;
+    o->has_range = 0;
+    if (o->is_symmetric)
+        return 0;
     if (cgt_read_doubles(text, 2, v, error, size))
         return -1;
     if (v[0] > v[1]) {

@@ -180,6 +180,8 @@ static void print_range_rule(const renderer *r, FILE *to)
         fprintf(to, s->values ? ", which all values are" : ", since no value is finite");
     else
         fprintf(to, ", 0 and the 99 %% quantile");
+    if (r->figure.options.is_symmetric)
+        fprintf(to, ", as far below 0 as above");
     if (is_formula && s->values && s->unknown_values)
         fprintf(to, "; %" PRIu64 " more are not finite", s->unknown_values);
 }

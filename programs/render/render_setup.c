@@ -264,26 +264,6 @@ static int create_context(renderer *r)
     return result ? -1 : 0;
 }
 
-/* Tells once for a run where its bonds come from. */
-static int check_bonds(const figure_options *o, const cgt_trajectory_frame *frame)
-{
-    const char *const asks = o->particles.bonds && !(o->particles.bond_distance > 0.0f) ? "--bonds"
-                             : o->whole                                                 ? "--whole"
-                             : o->unwrap                                                ? "--unwrap"
-                                                                                        : NULL;
-    if (!asks || frame->kind == CGT_TRAJECTORY_TRIANGLES)
-        return 0;
-    if (frame->bond_source == CGT_TRAJECTORY_BONDS_UNKNOWN && strcmp(asks, "--bonds") == 0) {
-        program_error("--bonds: the file has no bonds; give the longest distance of two that are bonded");
-        return -1;
-    }
-    if (frame->bond_source == CGT_TRAJECTORY_BONDS_GUESSED)
-        program_error("%s: the file has no bonds: they are guessed by the covalent radii of its elements", asks);
-    if (frame->bond_source == CGT_TRAJECTORY_BONDS_BOTH)
-        program_error("%s: the file lists some bonds: the others are guessed by covalent radii", asks);
-    return 0;
-}
-
 int render_check_kind(void *user, const cgt_trajectory_frame *frame)
 {
     const renderer *const r = user;
@@ -298,7 +278,11 @@ int render_check_kind(void *user, const cgt_trajectory_frame *frame)
         wrong = "--fps and --clip are for meshes, and this is a file of spheres";
     if (wrong)
         program_error("%s: %s", o->input, wrong);
-    return wrong || check_bonds(&o->figure, frame) ? -1 : 0;
+    char bonds[256];
+    const int failed = wrong || cgt_figure_check_bonds(&o->figure, frame, bonds, sizeof bonds);
+    if (!wrong && *bonds)
+        program_error("%s", bonds);
+    return failed ? -1 : 0;
 }
 
 /* The end of the chosen frames that this run may render; UINT64_MAX: where the input ends. */

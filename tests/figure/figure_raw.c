@@ -143,7 +143,10 @@ int main(int argc, char **argv)
                                                                         : 0)
             return 1;
     }
-    if (cgt_trajectory_open(argv[2], NULL, &file) || want_columns(file))
+    cgt_trajectory_options reading;
+    cgt_trajectory_options_init(&reading);
+    reading.all_bonds = reading.leave_out_sites = true; /* as cgt-render asks for them */
+    if (cgt_trajectory_open(argv[2], &reading, &file) || want_columns(file))
         return fail_file(file);
     for (int turn = 0; turn < 2; turn++) { /* look at all, show each */
         while ((result = cgt_trajectory_read(file, &frame)) == CGT_OK) {

@@ -79,7 +79,9 @@ int view_draw_color(view_draw *d, const view_frame *f, const char *by)
             cgt_expression_free(e);
             return render_fail(r);
         }
-        o.range_min = o.by == COLORING_SPEED ? 0.0 : (double)(float)o.range_min;
+        if (o.is_symmetric)
+            cgt_coloring_make_symmetric(&o.range_min, &o.range_max);
+        o.range_min = o.by == COLORING_SPEED && !o.is_symmetric ? 0.0 : (double)(float)o.range_min;
         o.range_max = (double)(float)o.range_max;
         o.has_range = 1;
     }

@@ -393,6 +393,10 @@ says out '^colour  *q from 10 to 991, the 1 % and the 99 % quantile of values fr
 draw hot_given -c 20,12,60,20,12,0,0,1,0,30 -k q --range 10,991 hot.xyz
 says out '^colour  *q from 10 to 991$'
 same hot hot_given "the range of a formula is not what is said"
+draw hot_symmetric -c 20,12,60,20,12,0,0,1,0,30 -k q-100 --range=symmetric hot.xyz
+says out '^colour  *q-100 from -891 to 891, the 1 % and the 99 % quantile of values from -100 to 999900, as far below 0 as above$'
+draw hot_about -c 20,12,60,20,12,0,0,1,0,30 -k q-100 --range=-891,891 hot.xyz
+same hot_symmetric hot_about "a symmetric range is not what is said"
 draw hot_column -c 20,12,60,20,12,0,0,1,0,30 -k 2*q hot.xyz
 same hot hot_column "a column and a formula have different rules"
 awk 'NR > 2 { $5 = NR == 9 ? -2 : NR == 99 ? 8 : 1 } { print }' "$tmp/hot.xyz" >"$tmp/rare.xyz"
