@@ -78,17 +78,6 @@ const driver_profile driver_profiles[] = {
                {COUNT_DOUBLE, COUNT_TRACED, 0.5},
                {COUNT_UNBOUNDED, COUNT_SCENES, 10},
                {COUNT_UNBOUNDED, COUNT_UNBOUNDED_WRONG, 5}}},
-    /* thousands of primitives, which builders share among tasks */
-    {.name = "large",
-     .scenes = 12,
-     .groups = {&large_scenes},
-     .lines = {lattice_lines, any_lines},
-     .rays = 240,
-     .lit = DRIVER_LIT,
-     .calls = {&call_nearest, &call_frames},
-     .ways = DRIVER_ANY_WAY,
-     .loads = 8,
-     .shows = {{COUNT_HITS, COUNT_SCENES, 50}, {COUNT_SEEN, COUNT_PIXELS, 0.2}, {COUNT_PACKETS, COUNT_TRACED, 0.05}}},
     /* coordinates of any magnitude, by every call */
     {.name = "bands",
      .scenes = 300,
@@ -174,7 +163,7 @@ const driver_profile driver_profiles[] = {
                {COUNT_EXACT, COUNT_TRACED, 0.1}}},
     /* all hits, through every structure, more than a list holds and equal ones among them */
     {.name = "lists",
-     .scenes = 126,
+     .scenes = 84,
      .groups = {&soup_scenes, &cloud_scenes, &kind_scenes, &long_scenes},
      .primitives = 240,
      .lines = {any_lines, long_lines, lattice_lines},
@@ -213,5 +202,16 @@ const driver_profile driver_profiles[] = {
                {COUNT_DOUBLE, COUNT_TRACED, 0.5},
                {COUNT_EXACT, COUNT_TRACED, 0.1},
                {COUNT_UNBOUNDED_WRONG, COUNT_SCENES, 1}}},
+    /* thousands of primitives, which builders share among tasks */
+    {.name = "large",
+     .scenes = 12,
+     .groups = {&large_scenes},
+     .lines = {lattice_lines, any_lines},
+     .rays = 240,
+     .lit = DRIVER_LIT,
+     .calls = {&call_nearest, &call_frames},
+     .ways = DRIVER_ANY_WAY,
+     .loads = 8,
+     .shows = {{COUNT_HITS, COUNT_SCENES, 50}, {COUNT_SEEN, COUNT_PIXELS, 0.2}, {COUNT_PACKETS, COUNT_TRACED, 0.05}}},
 };
 const uint32_t driver_profile_count = TEST_COUNT(driver_profiles);

@@ -227,15 +227,28 @@ static void store(const tracing *t, const surface *f, bool values, judge_pool *p
         oracle_describe(&t->line.line, &t->scene->primitive[f->index], &f->root, &h->values);
 }
 
+/* Room for all surfaces of a scene, which is used again. */
+static surface *room_for(uint32_t count)
+{
+    static surface *found;
+    static uint32_t room;
+    if (count <= room)
+        return found;
+    free(found);
+    room = count;
+    found = malloc(room * sizeof *found);
+    must(found != NULL, "no memory");
+    return found;
+}
+
 judge_truth judge_trace(const judge_scene *s, const judge_ray *ray, judge_question question, bool values,
                         judge_pool *pool)
 {
-    static surface found[2 * JUDGE_PRIMITIVES];
     static tracing t;
     judge_truth truth = {.first = pool->count};
     t.scene = s;
     t.question = question;
-    t.found = found;
+    t.found = room_for(2 * s->count + 1);
     t.count = 0;
     t.ended = false;
     if (!line_make(s, &ray->line, question == JUDGE_CROSSINGS, &t.line))
@@ -243,7 +256,7 @@ judge_truth judge_trace(const judge_scene *s, const judge_ray *ray, judge_questi
     t.filter = oracle_filter_make(&ray->line);
     look_along(&t, ray);
     for (uint32_t i = 0; i < t.count; i++) {
-        const surface *f = &found[t.order[i]];
+        const surface *f = &t.found[t.order[i]];
         store(&t, f, values, pool);
         truth.count++;
         if (question == JUDGE_NEAREST && !f->doubtful)
