@@ -31,10 +31,10 @@ static inline uint32_t element_spelt(const char *letters, size_t length)
         return 1;
     for (uint32_t number = 1; number <= ELEMENTS; number++) {
         const char *const symbol = element_symbol(number);
-        size_t same = 0;
-        while (same < length && symbol[same] && (letters[same] | 0x20) == (symbol[same] | 0x20))
+        size_t same = strlen(symbol) == length ? 0 : length;
+        while (same < length && (letters[same] | 0x20) == (symbol[same] | 0x20))
             same++;
-        if (same == length && length > 0 && !symbol[same])
+        if (same == length && strlen(symbol) == length)
             return number;
     }
     return 0;

@@ -23,8 +23,8 @@
 #define TINY_SIZE_CLASS 77u
 
 /* After so many frames for a tree alone the next is taken for one, too: two, so that a program whose frames are for a
- * camera and for rays by turns is never taken wrongly. Whether tiles serve a light again, only a grid tells: it is tried
- * once in so many of them. */
+ * camera and for rays by turns is never taken wrongly. Whether tiles serve a light again, only a grid tells: it is
+ * tried once in so many of them. */
 #define FRAMES_FOR_TREE 2u
 #define FRAMES_UNTIL_GRID 32u
 

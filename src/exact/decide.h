@@ -45,8 +45,8 @@ bool cgt_decide_root(const cgt_ray *ray, cgt_decided_hit *hit);
 /* Sign of the exact t(a) - t(b). */
 int cgt_decide_order(const cgt_ray *ray, const cgt_decided_hit *a, const cgt_decided_hit *b, uint64_t *exact);
 
-/* Whether a hit, whose t is computed, is closer than that of `best`, which the ray hits, too: by the exact t, then by the
- * lower number. Computes best->t. */
+/* Whether a hit, whose t is computed, is closer than that of `best`, which the ray hits, too: by the exact t, then by
+ * the lower number. Computes best->t. */
 bool cgt_decide_is_closer(const cgt_ray *ray, uint32_t prim, const cgt_decided_hit *hit, uint32_t best_prim,
                           cgt_decided_hit *best, uint64_t *exact);
 

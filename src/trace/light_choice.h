@@ -9,7 +9,8 @@
  * task whether the others go through a BVH, built for them if it is not there.
  *
  * What a call spends beyond a tree's work counts towards the tree for later calls, less what later calls save: so some
- * dense tiles among many small calls build no tree. Where lights gave up tiles before the last commit, a tree counts as paid. */
+ * dense tiles among many small calls build no tree. Where lights gave up tiles before the last commit, a tree counts as
+ * paid. */
 #ifndef CGT_LIGHT_CHOICE_H
 #define CGT_LIGHT_CHOICE_H
 
@@ -24,7 +25,8 @@ typedef struct cgt_light_choice {
     _Atomic uint64_t tried, work, given_up; /* what tasks add to it */
 } cgt_light_choice;
 
-/* Sets light_tiles, use_bvh and light_way of the settings, for a light with about so many points. Builds the BVH if tiles do not serve and the points pay for it. */
+/* Sets light_tiles, use_bvh and light_way of the settings, for a light with about so many points. Builds the BVH if
+ * tiles do not serve and the points pay for it. */
 cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, uint64_t points, cgt_trace_settings *settings,
                             cgt_light_choice *choice);
 

@@ -23,10 +23,9 @@
 
 /* A call's points against a light. */
 typedef struct cgt_light_account {
-    double points; /* of the call, about */
-    double spread; /* primitives of the scene for each point */
-    double
-        price; /* of a tree that is not there, less what earlier calls took beyond it; 0: it is there, paid or expected */
+    double points;   /* of the call, about */
+    double spread;   /* primitives of the scene for each point */
+    double price;    /* of a tree that is not there, less what earlier calls took beyond it; 0: there, paid, expected */
     double tried;    /* points by tiles */
     double spent;    /* work that they took */
     double given_up; /* points of them that have no answer, and wait for a tree */
@@ -47,8 +46,8 @@ static inline double cgt_light_tree_work(const cgt_light_account *a)
     return fmin(work, CGT_LIGHT_TREE_MOST);
 }
 
-/* What building a tree for `points` of the call saves, if they are like those tried: what is spent is spent. An eighth of
- * the points speaks for all, fewer for as much less. A tree has to spare a quarter: its work is known no better. */
+/* What building a tree for `points` of the call saves, if they are like those tried: what is spent is spent. An eighth
+ * of the points speaks for all, fewer for as much less. A tree has to spare a quarter: its work is known no better. */
 static inline double cgt_light_gain(const cgt_light_account *a, double points)
 {
     const double tree = cgt_light_tree_work(a), excess = a->spent - a->tried * tree;
@@ -63,8 +62,8 @@ static inline bool cgt_light_leaves_tiles(const cgt_light_account *a)
     return a->tried > 0 && cgt_light_gain(a, fmax(a->points - a->tried, 0)) > 0;
 }
 
-/* The work for each of a task's points at which tiles give it up, which is soon if a tree costs nothing. Else other tasks may
- * take far less, and an eighth of the tree's price is what a sample may take. */
+/* The work for each of a task's points at which tiles give it up, which is soon if a tree costs nothing. Else other
+ * tasks may take far less, and an eighth of the tree's price is what a sample may take. */
 static inline uint32_t cgt_light_budget(const cgt_light_account *a, double points)
 {
     const double work = cgt_light_tree_work(a) * (a->price > 0 ? 8 : 2) + a->price / 8 / (points + 1);

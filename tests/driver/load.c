@@ -330,7 +330,7 @@ static void check_load(driver_run *run)
     if (st.primitives != s->count || st.skipped_not_finite + st.skipped_radius != broken ||
         (!(way->serves & WAY_CHOSEN) && st.structure != way->scene.structure))
         driver_fail(run, NULL, "cgt_scene_get_statistics", "%llu primitives, %llu skipped, structure %d; %u, %u",
-                    (unsigned long long)st.primitives, (unsigned long long)(st.skipped_not_finite + st.skipped_radius),
+                    (unsigned long long)st.primitives, (unsigned long long)st.skipped_not_finite + st.skipped_radius,
                     (int)st.structure, (unsigned)s->count, (unsigned)broken);
 }
 

@@ -67,8 +67,8 @@ static void pay_for_tree(const cgt_scene *scene, lit_scene *s)
     assert_int_equal(cgt_occluded_rays(scene, &rays, s->got, NULL), CGT_OK);
 }
 
-/* Points that give up tiles: frames swing neither in work nor in way. After two for the tree alone there is no grid, but
- * for one commit in 32, which asks anew. Where a camera comes, too, there is one. */
+/* Points that give up tiles: frames swing neither in work nor in way. After two for the tree alone there is no grid,
+ * but for one commit in 32, which asks anew. Where a camera comes, too, there is one. */
 TEST(frames_that_are_alike_take_the_same_work)
 {
     static lit_scene s;

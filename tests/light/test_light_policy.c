@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Tiles or a tree, on recorded costs (recorded_light.inc) and without a ray: the choice takes no more than 1.15 times
- * the better of the two ways in nearly all rows, and 1.02 times on average: without a tree, with one, and in a frame that
- * follows one like it. */
+ * the better of the two ways in nearly all rows, and 1.02 times on average: without a tree, with one, and in a frame
+ * that follows one like it. */
 #include "support/suite.h"
 #include "support/test.h"
 #include "trace/light_policy.h"

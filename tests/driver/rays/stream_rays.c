@@ -218,7 +218,8 @@ void speck_lines(judge_scene *s, judge_ray *ray, uint32_t count)
 
 /* ---- long lists ---- */
 
-/* Along the axis of a scene in whole units, exactly, most of them from end to end; some through a place, or its middle. */
+/* Along the axis of a scene in whole units, exactly, most of them from end to end; some through a place, or its
+ * middle. */
 void long_lines(judge_scene *s, judge_ray *ray, uint32_t count)
 {
     test_random *r = &s->random;
