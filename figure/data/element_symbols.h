@@ -29,12 +29,10 @@ static inline uint32_t element_spelt(const char *letters, size_t length)
 {
     if (length == 1 && strchr("DdTt", *letters) != NULL)
         return 1;
-    for (uint32_t number = 1; number <= ELEMENTS; number++) {
+    for (uint32_t number = 1; number <= ELEMENTS && (length == 1 || length == 2); number++) {
         const char *const symbol = element_symbol(number);
-        size_t same = strlen(symbol) == length ? 0 : length;
-        while (same < length && (letters[same] | 0x20) == (symbol[same] | 0x20))
-            same++;
-        if (same == length && strlen(symbol) == length)
+        const int second = length == 2 ? letters[1] | 0x20 : '\0';
+        if ((letters[0] | 0x20) == (symbol[0] | 0x20) && second == (symbol[1] ? symbol[1] | 0x20 : '\0'))
             return number;
     }
     return 0;
