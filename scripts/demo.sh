@@ -45,7 +45,7 @@ render=build/demo/bin/cgt-render run=examples/data/pour2k.lammpstrj
 logged $render $run -q -s 1280x720 -a 4 --first 46 --last 46 -c 10,-21,13,10,6,6.2,0,0,1,38 --floor \
     --background e8eef5 --ambient 32 --light -1,-0.6,1.2 --light-size 12 --light-samples 32 -o out/demo/first.png
 echo "demo.sh: out/demo/first.png is there after $SECONDS s"
-$render $run -s 1280x720 --first 1 --camera-keys examples/data/pour2k.keys -o out/demo/frame_%04d.png \
+$render $run -s 1280x720 --first 3 --camera-keys examples/data/pour2k.keys -o out/demo/frame_%04d.png \
     --contact-sheet out/demo/contact_sheet.png "$@"
 $render $run -s 480x360 --first 8 --last 12 -c -6,-8,5,8,5,2.6,0,0,1,40 \
     --style paper --background e8eef5 --bounces 6 --floor --material 1=glass --material 2=mirror --type-color 1=e6f4ff \
