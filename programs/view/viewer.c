@@ -86,7 +86,7 @@ viewer *viewer_create(const view_options *options, void (*wake)(void *user), voi
     v->shrink = 1;
     v->scale = 1.0f;
     v->rate = options->render.output.rate > 0.0 ? options->render.output.rate : 30.0;
-    v->outdated = v->changed = 1;
+    v->outdated = v->changed = v->is_arriving = 1;
     pthread_mutex_init(&v->lock, NULL);
     pthread_mutex_init(&v->picture_lock, NULL);
     program_set_error_sink(on_error, v);
@@ -229,6 +229,8 @@ static void take_frame(viewer *v)
     v->build_cost = 0.8 * v->build_cost + 0.2e3 * (program_seconds() - begin);
     view_frames_release(v->frames, v->shown);
     v->shown = frame;
+    v->is_arriving = v->is_arriving && !frame_primitives(&frame->frame);
+    v->wanted += (uint64_t)v->is_arriving;
     v->outdated = 1;
     v->changed = 1;
     v->playing = v->scene_is_wrong ? 0 : v->playing;

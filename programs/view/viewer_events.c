@@ -47,6 +47,7 @@ void viewer_move_to(viewer *v, uint64_t frame)
     if (state.is_final && state.count && frame >= state.count)
         frame = state.count - 1;
     v->wanted = frame;
+    v->is_arriving = 0;
     v->moved = v->now;
     v->changed = 1;
 }

@@ -46,6 +46,7 @@ struct viewer {
     view_frame *shown;  /* NULL: none yet */
     int scene_is_wrong; /* the frame could not be set: there is nothing to draw */
     uint64_t wanted;    /* frame */
+    int is_arriving;    /* nobody chose a frame: the first that has something is looked for */
     int playing;
     double rate, next_frame; /* frames a second; when the next one is due */
     double moved;            /* when something moved last */

@@ -37,8 +37,9 @@ waits() {
 viewer=$!
 opened() { window=$(xdotool search --name pour2k 2>/dev/null | head -n 1) && [ -n "$window" ]; }
 waits 30 opened || { fail "no window: $(cat "$tmp/stderr")"; exit 1; }
+# the first frame that has something
 titled() { xdotool getwindowname "$window" | grep -q "frame $1\$"; }
-waits 30 titled 0 || fail "the title is $(xdotool getwindowname "$window")"
+waits 30 titled 3 || fail "the title is $(xdotool getwindowname "$window")"
 xdotool windowfocus "$window"
 # the last frame by a key, one back by another, then a drag, the wheel, a picture, a copy of the camera, the end
 xdotool key --window "$window" End
