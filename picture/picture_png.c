@@ -197,7 +197,7 @@ static uint8_t paeth(uint8_t left, uint8_t up, uint8_t corner)
     return a <= b && a <= c ? left : b <= c ? up : corner;
 }
 
-enum { NONE, SUB, UP, PAETH = 4, FILTERS };
+enum { NONE, SUB, UP, PAETH = 4 };
 
 /* Filters a row. Returns how far its bytes are from 0, which tells how well they compress. */
 static uint64_t filter_row(int filter, const uint8_t *row, const uint8_t *above, size_t bytes, uint32_t channels,

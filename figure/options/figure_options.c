@@ -4,11 +4,11 @@
  * What is not given of a figure, and what needs several options; see figure_options.h. */
 #include "options/figure_options.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "camera/camera_path.h"
+#include "options/numbers.h"
 
 /* ---- Style --------------------------------------------------------------------------------------------------- */
 
@@ -92,17 +92,6 @@ void cgt_figure_options_axes(figure_options *o, cgt_trajectory_kind kind)
 
 /* ---- All of them ---------------------------------------------------------------------------------------------- */
 
-static int refuse(char *error, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
-
-static int refuse(char *error, size_t size, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(error, size, format, arguments);
-    va_end(arguments);
-    return -1;
-}
-
 int cgt_figure_options_finish(figure_options *o, char *error, size_t size)
 {
     o->floor.is_set |= o->floor.axis || o->floor.has_height || o->floor.has_place;
@@ -110,21 +99,22 @@ int cgt_figure_options_finish(figure_options *o, char *error, size_t size)
         o->picture.shadows = 1; /* in all styles: what casts none seems to float */
     take_style(&o->picture);
     if (o->logarithmic && (o->is_symmetric || (o->has_range && !(o->range_min > 0.0))))
-        return refuse(error, size, "--log-scale: the range must be above 0");
+        return cgt_refuse(error, size, "--log-scale: the range must be above 0");
     if (o->keys.count && o->orbit != 0.0f)
-        return refuse(error, size, "--camera-keys and --orbit exclude each other");
+        return cgt_refuse(error, size, "--camera-keys and --orbit exclude each other");
     if ((uint64_t)o->width * o->height * o->samples * o->samples > FIGURE_MAX_PIXELS ||
         o->width > FIGURE_MAX_EDGE / o->samples || o->height > FIGURE_MAX_EDGE / o->samples)
-        return refuse(error, size, "%ux%u pixels of %ux%u rays: at most %d an edge and %llu in all", o->width,
-                      o->height, o->samples, o->samples, FIGURE_MAX_EDGE, (unsigned long long)FIGURE_MAX_PIXELS);
+        return cgt_refuse(error, size, "%ux%u pixels of %ux%u rays: at most %d an edge and %llu in all", o->width,
+                          o->height, o->samples, o->samples, FIGURE_MAX_EDGE, (unsigned long long)FIGURE_MAX_PIXELS);
     if (o->has_camera && (o->has_view || o->has_up || o->has_fov || o->zoom > 0.0f))
-        return refuse(error, size, "--view, --up, --fov and --zoom are for the automatic camera and exclude --camera");
+        return cgt_refuse(error, size,
+                          "--view, --up, --fov and --zoom are for the automatic camera and exclude --camera");
     if (o->unwrap && o->whole)
-        return refuse(error, size, "--unwrap and --whole exclude each other");
+        return cgt_refuse(error, size, "--unwrap and --whole exclude each other");
     if (o->has_view && o->has_up && !o->side && cgt_camera_path_is_along(o->view, o->up))
-        return refuse(error, size, "--view: the direction must not be along the axis that points up");
+        return cgt_refuse(error, size, "--view: the direction must not be along the axis that points up");
     if (o->bounce.count && !o->bounce.is_set)
-        return refuse(error, size, "--material is for --bounces");
+        return cgt_refuse(error, size, "--material is for --bounces");
     return 0;
 }
 

@@ -14,9 +14,7 @@
 
 /* ---- Numbers ------------------------------------------------------------------------------------------------ */
 
-static int refuse(char *error, size_t error_size, const char *format, ...) __attribute__((format(printf, 3, 4)));
-
-static int refuse(char *error, size_t error_size, const char *format, ...)
+int cgt_refuse(char *error, size_t error_size, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -49,7 +47,8 @@ int cgt_read_u64(const char *text, uint64_t min, uint64_t max, uint64_t *value, 
     const char *p = text;
     uint64_t number = 0;
     if (scan_u64(&p, &number) || *p != '\0' || number < min || number > max)
-        return refuse(error, error_size, "'%.80s' is not a whole number from %" PRIu64 " to %" PRIu64, text, min, max);
+        return cgt_refuse(error, error_size, "'%.80s' is not a whole number from %" PRIu64 " to %" PRIu64, text, min,
+                          max);
     *value = number;
     return 0;
 }
@@ -146,8 +145,8 @@ int cgt_read_float(const char *text, float min, float max, float *value, char *e
     const char *p = text;
     float number;
     if (scan_float(&p, &number) || *p != '\0' || !(number >= min && number <= max))
-        return refuse(error, error_size, "'%.80s' is not a number from %s to %s", text, cgt_number(6, (double)min).text,
-                      cgt_number(6, (double)max).text);
+        return cgt_refuse(error, error_size, "'%.80s' is not a number from %s to %s", text,
+                          cgt_number(6, (double)min).text, cgt_number(6, (double)max).text);
     *value = number;
     return 0;
 }
@@ -157,10 +156,10 @@ int cgt_read_floats(const char *text, size_t count, float *values, char *error, 
     float numbers[16];
     const char *p = text;
     if (count > sizeof numbers / sizeof numbers[0])
-        return refuse(error, error_size, "more than 16 numbers cannot be read at once");
+        return cgt_refuse(error, error_size, "more than 16 numbers cannot be read at once");
     for (size_t i = 0; i < count; i++) {
         if (scan_float(&p, &numbers[i]) || *p != (i + 1 < count ? ',' : '\0'))
-            return refuse(error, error_size, "'%.200s' is not %zu numbers with commas between them", text, count);
+            return cgt_refuse(error, error_size, "'%.200s' is not %zu numbers with commas between them", text, count);
         p++;
     }
     memcpy(values, numbers, count * sizeof *values);
@@ -188,7 +187,7 @@ int cgt_read_size(const char *text, uint32_t *width, uint32_t *height, char *err
         wrong = scan_u64(&p, &h) || *p != '\0';
     }
     if (wrong || w < 1 || h < 1 || w > 65536 || h > 65536)
-        return refuse(error, error_size, "'%.80s' is not a size like 1280x720 with edges from 1 to 65536", text);
+        return cgt_refuse(error, error_size, "'%.80s' is not a size like 1280x720 with edges from 1 to 65536", text);
     *width = (uint32_t)w;
     *height = (uint32_t)h;
     return 0;
@@ -213,16 +212,16 @@ int cgt_read_far_camera(const char *text, cgt_camera *camera, double eye_at[3], 
     float v[10] = {0};
     double d[10];
     if (cgt_read_floats(text, 10, v, error, error_size) || cgt_read_doubles(text, 10, d, error, error_size))
-        return refuse(error, error_size, "'%.200s' is not ex,ey,ez,tx,ty,tz,ux,uy,uz,fov: ten numbers", text);
+        return cgt_refuse(error, error_size, "'%.200s' is not ex,ey,ez,tx,ty,tz,ux,uy,uz,fov: ten numbers", text);
     const float *const eye = v, *const target = v + 3, *const up = v + 6;
     const float view[3] = {(float)(d[3] - d[0]), (float)(d[4] - d[1]), (float)(d[5] - d[2])};
     if (view[0] == 0.0f && view[1] == 0.0f && view[2] == 0.0f)
-        return refuse(error, error_size, "eye and target are the same point");
+        return cgt_refuse(error, error_size, "eye and target are the same point");
     if (up_is_parallel(view, up))
-        return refuse(error, error_size, "up is zero, or parallel to the view from eye to target");
+        return cgt_refuse(error, error_size, "up is zero, or parallel to the view from eye to target");
     if (!(v[9] > 0.0f && v[9] < 180.0f))
-        return refuse(error, error_size, "the angle %s is not above 0 and below 180 degrees",
-                      cgt_number(6, (double)v[9]).text);
+        return cgt_refuse(error, error_size, "the angle %s is not above 0 and below 180 degrees",
+                          cgt_number(6, (double)v[9]).text);
     camera->projection = CGT_PROJECTION_PERSPECTIVE;
     memcpy(camera->eye, eye, sizeof camera->eye);
     memcpy(camera->target, target, sizeof camera->target);
@@ -240,7 +239,7 @@ int cgt_read_camera(const char *text, cgt_camera *camera, char *error, size_t er
     if (cgt_read_far_camera(text, &parsed, eye, target, error, error_size))
         return -1;
     if (memcmp(parsed.eye, parsed.target, sizeof parsed.eye) == 0)
-        return refuse(error, error_size, "eye and target are the same point in single precision");
+        return cgt_refuse(error, error_size, "eye and target are the same point in single precision");
     *camera = parsed;
     return 0;
 }

@@ -18,6 +18,9 @@ typedef int option_parser(const char *text, void *to, char *error, size_t error_
 double cgt_scan_double(const char *text, char **end);
 float cgt_scan_float(const char *text, char **end);
 
+/* Writes a sentence, unless error is NULL or error_size 0, and returns -1. */
+int cgt_refuse(char *error, size_t error_size, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
 /* A number by %.*g, with a point: printed by cgt_number(digits, value).text. */
 typedef struct number_text {
     char text[32];

@@ -4,7 +4,6 @@
  * The command line of cgt-render: what is not given, and what needs several options; see render_options.h. */
 #include "render/options/render_options.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,25 +13,15 @@
 #include "render/options/option_parsers.h"
 #include "render/options/settings_file.h"
 #include "system/system.h"
+#include "options/numbers.h"
 
 /* ---- The whole command line ---------------------------------------------------------------------------------- */
-
-static int refuse(char *error, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* In MiB; 1024 where the system does not tell. */
 static uint32_t quarter_of_memory(void)
 {
     const uint64_t bytes = system_memory(), mib = bytes > 0 ? bytes >> 22 : 1024;
     return mib < UINT32_MAX ? (uint32_t)mib : UINT32_MAX;
-}
-
-static int refuse(char *error, size_t size, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(error, size, format, arguments);
-    va_end(arguments);
-    return -1;
 }
 
 int render_options_finish(void *options, const char **operands, size_t count, char *error, size_t size)
@@ -44,23 +33,23 @@ int render_options_finish(void *options, const char **operands, size_t count, ch
     if (o->cell.mode == RENDER_CELL_NONE && o->cell.spes)
         o->cell.mode = RENDER_CELL_NATIVE;
     if (!o->input && !o->print_settings)
-        return refuse(error, size, "no trajectory: give a .lammpstrj, .xyz or .frames file, or a mesh");
+        return cgt_refuse(error, size, "no trajectory: give a .lammpstrj, .xyz or .frames file, or a mesh");
     if (o->no_images && o->output_count)
-        return refuse(error, size, "--output and --no-images exclude each other");
+        return cgt_refuse(error, size, "--output and --no-images exclude each other");
     if (!o->no_images && !o->output_count && parse_output("out/frame_%04d.png", o, error, size))
         return -1;
     for (uint32_t i = 0; i < o->output_count && o->figure.picture.transparent; i++)
         if (image_format_of(o->outputs[i].pattern) != IMAGE_PNG && image_format_of(o->outputs[i].pattern) != IMAGE_EXR)
-            return refuse(error, size, "--transparent: \"%s\" holds no opacity; .png and .exr do",
-                          o->outputs[i].pattern);
+            return cgt_refuse(error, size, "--transparent: \"%s\" holds no opacity; .png and .exr do",
+                              o->outputs[i].pattern);
     if (o->range.last < o->range.first)
-        return refuse(error, size, "--last is before --first");
+        return cgt_refuse(error, size, "--last is before --first");
     if (cgt_figure_options_finish(&o->figure, error, size))
         return -1;
     if (o->cell.mode == RENDER_CELL_NONE && (o->cell.assignment || o->cell.program))
-        return refuse(error, size, "--cell-assignment and --cell-program are for --cell");
+        return cgt_refuse(error, size, "--cell-assignment and --cell-program are for --cell");
     if (o->cell.mode == RENDER_CELL_NATIVE && o->cell.program)
-        return refuse(error, size, "--cell-program is for --cell sim: a native Cell has its program built in");
+        return cgt_refuse(error, size, "--cell-program is for --cell sim: a native Cell has its program built in");
     return 0;
 }
 
