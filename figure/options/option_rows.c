@@ -8,19 +8,11 @@
 #include <float.h>
 #include <string.h>
 
+#define OPTION_TABLE figure_options /* whose members the rows are about */
 #include "options/figure_values.h"
+#include "options/option_macros.h"
 #include "sequence/trail_history.h"
 
-#define AT(type_, member) .type = OPTION_##type_, .at = offsetof(figure_options, member)
-#define FLAG(member) AT(FLAG, member), .first = 1
-#define TEXT(member) AT(TEXT, member)
-#define WORD(member, first_, words_) AT(WORD, member), .first = first_, .words = words_
-#define NAME(member, words_) AT(NAME, member), .words = words_
-#define FLOAT(member, low_, high_) AT(FLOAT, member), .low = low_, .high = high_
-#define DOUBLE(member, low_, high_) AT(DOUBLE, member), .low = low_, .high = high_
-#define U32(member, first_, last_) AT(U32, member), .first = first_, .last = last_
-#define PARSED(member, function) AT(PARSED, member), .parse = function
-#define WHOLE(function) .type = OPTION_PARSED, .parse = function /* its place is all of the options */
 #define GIVEN(member) .given = offsetof(figure_options, member) + 1
 #define OTHERWISE(text) .is_optional = 1, .otherwise = text
 

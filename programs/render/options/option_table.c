@@ -8,20 +8,11 @@
 
 #include <float.h>
 
+#define OPTION_TABLE render_options /* whose members the rows are about */
+#include "options/option_macros.h"
 #include "render/options/option_parsers.h"
 #include "trajectory/trajectory_formats.h"
 
-#define AT(type_, member) .type = OPTION_##type_, .at = offsetof(render_options, member)
-#define FLAG(member) AT(FLAG, member), .first = 1
-#define TEXT(member) AT(TEXT, member)
-#define WORD(member, first_, words_) AT(WORD, member), .first = first_, .words = words_
-#define NAME(member, words_) AT(NAME, member), .words = words_
-#define FLOAT(member, low_, high_) AT(FLOAT, member), .low = low_, .high = high_
-#define DOUBLE(member, low_, high_) AT(DOUBLE, member), .low = low_, .high = high_
-#define U32(member, first_, last_) AT(U32, member), .first = first_, .last = last_
-#define U64(member, first_, last_) AT(U64, member), .first = first_, .last = last_
-#define PARSED(member, function) AT(PARSED, member), .parse = function
-#define WHOLE(function) .type = OPTION_PARSED, .parse = function /* its place is all of the options */
 #define RUNNING .is_running = 1
 
 static const option_row rows[] = {
