@@ -285,9 +285,9 @@ static void follow_bulk(cgt_figure *figure)
     write_bounds(figure, was_min, was_max, bounds[1]);
     cgt_notices_add(&figure->notices,
                     "the camera follows the bulk, %s, and leaves out about %" PRIu64 " of %" PRIu64
-                    " %s of the run, which reaches %s",
-                    bounds[0], outside, s->drawable, s->kind == CGT_TRAJECTORY_TRIANGLES ? "triangles" : "spheres",
-                    bounds[1]);
+                    " %s%s of the run, which reaches %s",
+                    bounds[0], outside, s->drawable, s->hidden ? "shown " : "",
+                    s->kind == CGT_TRAJECTORY_TRIANGLES ? "triangles" : "spheres", bounds[1]);
 }
 
 int cgt_figure_choose_camera(cgt_figure *figure)
@@ -304,6 +304,8 @@ int cgt_figure_choose_camera(cgt_figure *figure)
     }
     cgt_figure_scene_bound(figure);
     if (!s->drawable) {
+        if (s->hidden)
+            cgt_notices_add(&figure->notices, "--show, --hide, --slice and --cut leave out all spheres of the run");
         for (int c = 0; c < 3; c++) {
             s->bounds_min[c] = -1.0f;
             s->bounds_max[c] = 1.0f;
@@ -357,6 +359,9 @@ int cgt_figure_settle(cgt_figure *figure)
     const cgt_result result = cgt_scene_create(figure->context, NULL, &figure->scene);
     if (result)
         return cgt_figure_fail_library(figure, "make a scene", result);
+    const int rays = (int)(o->samples * o->samples);
+    if (o->picture.ambient > 0 && o->picture.ambient < rays)
+        cgt_notices_add(&figure->notices, "--ambient: each of a pixel's %d rays asks once: as with %d", rays, rays);
     if (o->picture.ambient < 0) {
         const style_values *const s = cgt_style_get(o->picture.style);
         o->picture.ambient = figure->is_mesh ? s->mesh_ambient : s->ambient;
