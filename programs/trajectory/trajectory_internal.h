@@ -57,6 +57,7 @@ typedef enum trajectory_doubt {
     DOUBT_POINTS,        /* spheres of radius 0 */
     DOUBT_SHAPES,        /* shapes that are drawn as others, or not at all */
     DOUBT_LOST,          /* .cif: atoms without coordinates */
+    DOUBT_INCLUDES,      /* .top: files that were not found */
     DOUBTS
 } trajectory_doubt;
 

@@ -121,6 +121,9 @@ same gone followed "--unwrap of a part of a run"
 refuses 1 '--whole: frame 0 has no bonds' --whole flags.lammpstrj
 refuses 2 '--unwrap and --whole exclude each other' --unwrap --whole bonds.data
 
+draw usual row.xyz
+draw four_rays -a 2 row.xyz
+same usual four_rays "-a 2 is not the default"
 # Camera, ranges and legend know nothing of what is left out: as of a run without it.
 run_of() { # run_of COUNT: spheres 1 to COUNT of a run of two frames
     for frame in 0 1; do
