@@ -10,15 +10,17 @@
  * doi:10.5281/zenodo.5501399), Copyright (c) 2021 Fabio Crameri, MIT License, as GMT 6.4 has them. coolwarm is computed
  * by Kenneth Moreland's rule, "Diverging Color Maps for Scientific Visualization" (ISVC 2009). The tables hold every
  * fifth of their 256 entries, rounded to 8 bits; lines between them stay within four 8-bit steps of the full tables.
- * The colours of kinds are those of Masataka Okabe and Kei Ito, "Color Universal Design" (2008), with a grey in place
- * of their black, on which shading would not show. */
+ * The first eight colours of kinds are those of Masataka Okabe and Kei Ito, "Color Universal Design" (2008), with a
+ * grey in place of their black, on which shading would not show. The other eight are of the 22 of Kenneth L. Kelly,
+ * "Twenty-two colors of maximum contrast" (Color Engineering 3, 1965), by their centroids in sRGB: those that are
+ * farthest in CIELAB from all before them, without the nearly black one. */
 #include <cgt/color.h>
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <string.h>
 
-enum { KNOTS = 52, KINDS = 8 };
+enum { KNOTS = 52, KINDS = 16 };
 
 static const struct {
     const char *name;
@@ -140,7 +142,8 @@ struct cgt_colormap {
 static const cgt_colormap maps[2 * MAPS] = {BOTH(0), BOTH(1), BOTH(2), BOTH(3), BOTH(4), BOTH(5),
                                             BOTH(6), BOTH(7), BOTH(8), BOTH(9), BOTH(10)};
 
-/* Shading brings orange, yellow and vermilion close, so this order keeps them apart in files of few types. */
+/* Shading brings orange, yellow and vermilion close, so this order keeps them apart in files of few types. From the
+ * ninth on not everyone can tell them from all others. */
 static const uint8_t kinds[KINDS][3] = {
     {230, 159, 0},   /* orange */
     {86, 180, 233},  /* sky blue */
@@ -149,7 +152,15 @@ static const uint8_t kinds[KINDS][3] = {
     {240, 228, 66},  /* yellow */
     {0, 114, 178},   /* blue */
     {213, 94, 0},    /* vermilion */
-    {153, 153, 153}  /* grey */
+    {153, 153, 153}, /* grey */
+    {190, 0, 50},    /* red */
+    {249, 147, 121}, /* yellowish pink */
+    {141, 182, 0},   /* yellow green */
+    {96, 78, 151},   /* violet */
+    {194, 178, 128}, /* buff */
+    {136, 45, 23},   /* reddish brown */
+    {101, 69, 34},   /* yellowish brown */
+    {179, 68, 108}   /* purplish red */
 };
 
 const cgt_colormap *cgt_find_colormap(const char *name)

@@ -153,7 +153,8 @@ def _of_kinds(of, name, kinds) -> np.ndarray:
 
 
 def by_type(types: ArrayLike) -> np.ndarray:
-    """The colours of types, (n,) int from 1 on: eight that everyone can tell apart, again and again: (n, 3) float32."""
+    """The colours of types, (n,) int from 1 on: eight that everyone can tell apart and eight more, again and
+    again: (n, 3) float32."""
     return _of_kinds(lib.cgt_get_type_color, "types", types)
 
 

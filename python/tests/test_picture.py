@@ -303,7 +303,7 @@ def test_colours_of_values_types_and_elements():
     assert cgt.colors.entries([np.nan]).tolist() == [1024] and cgt.colors.entries([]).shape == (0,)
     with pytest.raises(cgt.InvalidArgument, match="map: 'rainbow': one of viridis"):
         cgt.colors.palette("rainbow")
-    kinds = cgt.colors.by_type([1, 2, 9])
+    kinds = cgt.colors.by_type([1, 2, 17])
     assert np.array_equal(kinds[0], kinds[2]) and not np.array_equal(kinds[0], kinds[1])
     oxygen, unknown = cgt.colors.by_element(np.array([8, 0], "u1"))
     assert oxygen[0] > oxygen[1] and unknown.min() > 0 and cgt.colors.by_type([]).shape == (0, 3)

@@ -147,13 +147,13 @@ TEST(viridis_rises_in_lightness)
 TEST(kinds_differ_and_repeat)
 {
     float a[3], b[3];
-    for (uint32_t i = 1; i <= 8; i++) {
+    for (uint32_t i = 1; i <= 16; i++) {
         cgt_get_type_color(i, a);
-        for (uint32_t j = i + 1; j <= 8; j++) {
+        for (uint32_t j = i + 1; j <= 16; j++) {
             cgt_get_type_color(j, b);
             assert_true(fabsf(a[0] - b[0]) + fabsf(a[1] - b[1]) + fabsf(a[2] - b[2]) > 0.2f);
         }
-        cgt_get_type_color(i + 8, b);
+        cgt_get_type_color(i + 16, b);
         assert_memory_equal(a, b, sizeof a);
     }
     cgt_get_type_color(1, a);
@@ -166,7 +166,7 @@ TEST(kinds_differ_and_repeat)
 TEST(values_find_their_entries)
 {
     const float xyzr[20] = {0}, speeds[5] = {1.0f, 3.0f, 2.0f, NAN, 9.0f};
-    const uint32_t ids[5] = {10, 20, 4000000000u, 15, 0}, types[5] = {1, 2, 9, 0, 8};
+    const uint32_t ids[5] = {10, 20, 4000000000u, 15, 0}, types[5] = {1, 2, 17, 0, 16};
     const cgt_trajectory_frame frame = {.count = 5, .xyzr = xyzr, .id = ids, .type = types};
     coloring c;
     assert_int_equal(cgt_coloring_init(&c, COLORING_SPEED, NULL, 1.0f, 3.0f), 0);
@@ -189,8 +189,8 @@ TEST(values_find_their_entries)
     cgt_coloring_free(&c);
     assert_int_equal(cgt_coloring_init(&c, COLORING_TYPE, NULL, 0.0f, 0.0f), 0);
     assert_int_equal(cgt_coloring_apply(&c, &frame, NULL), 0);
-    assert_memory_equal(c.palette[c.index[0]], c.palette[c.index[2]], sizeof c.palette[0]); /* 1 and 9 */
-    assert_memory_equal(c.palette[c.index[3]], c.palette[c.index[4]], sizeof c.palette[0]); /* 0 and 8 */
+    assert_memory_equal(c.palette[c.index[0]], c.palette[c.index[2]], sizeof c.palette[0]); /* 1 and 17 */
+    assert_memory_equal(c.palette[c.index[3]], c.palette[c.index[4]], sizeof c.palette[0]); /* 0 and 16 */
     assert_memory_not_equal(c.palette[c.index[0]], c.palette[c.index[1]], sizeof c.palette[0]);
     cgt_coloring_free(&c);
 }
