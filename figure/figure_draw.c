@@ -7,6 +7,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "data/element_symbols.h"
@@ -82,19 +83,33 @@ static void set_projection(const cgt_figure *figure, cgt_camera *camera)
 
 /* ---- Overlay ------------------------------------------------------------------------------------------------ */
 
-static void name_kind(const cgt_figure *figure, uint32_t kind, int is_element, char *name, size_t size)
+static void name_kind(const cgt_figure *figure, int64_t kind, char *name, size_t size)
 {
-    const particle_options *o = &figure->options.particles;
-    if (!is_element)
-        snprintf(name, size, "type %" PRIu32, kind);
+    const char *const given = cgt_figure_name_of(figure, kind);
+    if (given)
+        snprintf(name, size, "%s", given);
+    else if (figure->coloring.by == COLORING_CATEGORY)
+        cgt_categories_name(&figure->categories, kind, name, size);
+    else if (figure->coloring.by == COLORING_TYPE)
+        snprintf(name, size, "type %" PRId64, kind);
     else
-        snprintf(name, size, "%s", kind ? element_symbol(kind) : "others");
-    for (uint32_t i = 0; i < o->name_count; i++)
-        if (o->names[i].kind.is_element == is_element && o->names[i].kind.kind == kind)
-            snprintf(name, size, "%s", o->names[i].name);
+        snprintf(name, size, "%s", kind ? element_symbol((uint32_t)kind) : "others");
 }
 
-/* Types and elements in the order of their numbers; spheres that are no element come last. */
+static void add_kind(cgt_figure *figure, int64_t kind)
+{
+    overlay *const v = &figure->overlay;
+    if (v->kind_count < OVERLAY_MOST_KINDS) {
+        overlay_kind *const line = &figure->kinds[v->kind_count];
+        memcpy(line->color, figure->coloring.palette[cgt_coloring_entry_of_kind(&figure->coloring, kind)],
+               sizeof line->color);
+        name_kind(figure, kind, line->name, sizeof line->name);
+    }
+    v->kind_count++;
+}
+
+/* Types, elements and categories in the order of their numbers; spheres that are no element or have no word come
+ * last. */
 static void choose_legend(cgt_figure *figure)
 {
     const picture_options *o = &figure->options.picture;
@@ -103,17 +118,17 @@ static void choose_legend(cgt_figure *figure)
     overlay *v = &figure->overlay;
     v->legend = o->legend ? o->legend : o->bar;
     v->kinds = figure->kinds;
+    if (figure->coloring.by == COLORING_CATEGORY) {
+        int64_t *const kinds = v->legend ? cgt_categories_sort(&figure->categories) : NULL;
+        for (size_t i = 0; kinds && i < figure->categories.shown.count; i++)
+            add_kind(figure, kinds[i]);
+        free(kinds);
+        return;
+    }
     for (uint32_t i = 0; i < SURVEY_KINDS && v->legend; i++) {
         const uint32_t kind = is_element ? (i + 1) % SURVEY_KINDS : i;
-        if (!has[kind])
-            continue;
-        if (v->kind_count < OVERLAY_MOST_KINDS) {
-            overlay_kind *const line = &figure->kinds[v->kind_count];
-            memcpy(line->color, figure->coloring.palette[cgt_coloring_entry_of_kind(&figure->coloring, kind)],
-                   sizeof line->color);
-            name_kind(figure, kind, is_element, line->name, sizeof line->name);
-        }
-        v->kind_count++;
+        if (has[kind])
+            add_kind(figure, kind);
     }
 }
 
@@ -125,8 +140,9 @@ static void choose_bar(cgt_figure *figure)
         cgt_notices_add(&figure->notices,
                         "--colorbar: the colours are those of neither types nor values of some range: there is no bar");
     if (o->legend)
-        cgt_notices_add(&figure->notices,
-                        "--legend: the colours are those of neither types nor elements: there is no legend");
+        cgt_notices_add(
+            &figure->notices,
+            "--legend: the colours are those of neither types, elements nor categories: there is no legend");
 }
 
 /* Tells what the font lacks: it would be empty boxes. */
@@ -165,7 +181,7 @@ static int choose_overlay(cgt_figure *figure)
     v->time = !o->time || *o->time ? o->time : "t = {time}";
     v->axes = o->axes;
     v->coloring = &figure->coloring;
-    if (figure->coloring.by == COLORING_TYPE || figure->coloring.by == COLORING_ELEMENT)
+    if (coloring_has_kinds(figure->coloring.by))
         choose_legend(figure);
     else
         choose_bar(figure);

@@ -47,11 +47,18 @@ int cgt_figure_fail_picture(cgt_figure *figure, cgt_result result)
 
 /* ---- What must be known ------------------------------------------------------------------------------------- */
 
-/* Whether types or elements are to be named, which are those of all frames. */
-static int has_legend(const figure_options *o)
+/* Whether the colours may turn out to be those of words. */
+static int may_have_words(const cgt_figure *figure)
 {
+    return figure->options.by == COLORING_VALUE && cgt_expression_is_name(figure->formula);
+}
+
+/* Whether types, elements or categories are to be named, which are those of all frames. */
+static int has_legend(const cgt_figure *figure)
+{
+    const figure_options *const o = &figure->options;
     return (o->picture.legend || o->picture.bar) &&
-           (o->by == COLORING_AUTO || o->by == COLORING_TYPE || o->by == COLORING_ELEMENT);
+           (o->by == COLORING_AUTO || coloring_has_kinds(o->by) || may_have_words(figure));
 }
 
 int cgt_figure_open(cgt_figure *figure)
@@ -59,7 +66,7 @@ int cgt_figure_open(cgt_figure *figure)
     const figure_options *o = &figure->options;
     frame_sequence *const sequence = &figure->sequence;
     const unwrap_mode mode = o->whole ? UNWRAP_WHOLE : o->unwrap ? UNWRAP_IMAGES : UNWRAP_NOT;
-    if (o->by == COLORING_VALUE &&
+    if ((o->by == COLORING_VALUE || o->by == COLORING_CATEGORY) &&
         !(figure->formula = cgt_expression_parse(o->formula, figure->message, sizeof figure->message)))
         return -1;
     if (o->by == COLORING_AUTO || o->by == COLORING_SPEED ||
@@ -68,7 +75,9 @@ int cgt_figure_open(cgt_figure *figure)
         if (!sequence->tracker)
             return cgt_figure_fail(figure, "out of memory");
     }
-    sequence->wants_kinds = has_legend(o);
+    sequence->wants_kinds = has_legend(figure);
+    figure->categories.takes_numbers = o->by == COLORING_CATEGORY;
+    sequence->categories = o->by == COLORING_CATEGORY || may_have_words(figure) ? &figure->categories : NULL;
     if (cgt_frame_sequence_unwrap(sequence, mode, figure->message, sizeof figure->message) ||
         cgt_frame_sequence_bind(sequence, figure->formula, figure->message, sizeof figure->message))
         return -1;
@@ -78,14 +87,14 @@ int cgt_figure_open(cgt_figure *figure)
 uint64_t cgt_figure_needs_frames(const cgt_figure *figure, uint64_t most)
 {
     const figure_options *o = &figure->options;
-    const int measured =
-        o->by != COLORING_TYPE && o->by != COLORING_PLAIN && o->by != COLORING_AUTO && o->by != COLORING_ELEMENT;
-    if (!o->has_camera || (measured && !o->has_range) || (o->floor.is_set && !o->floor.has_place))
-        return most;
-    if (has_legend(o))
+    const int is_measured = o->by != COLORING_PLAIN && o->by != COLORING_AUTO && !coloring_has_kinds(o->by);
+    const int may_be_words = may_have_words(figure);
+    if (!o->has_camera || (is_measured && !may_be_words && !o->has_range) || (o->floor.is_set && !o->floor.has_place) ||
+        has_legend(figure))
         return most;
     /* the up axis depends on the kind, and meshes of glass are as dark as they are large */
-    return o->by == COLORING_AUTO || o->by == COLORING_HEIGHT || o->bounce.count;
+    return o->by == COLORING_AUTO || o->by == COLORING_HEIGHT || o->by == COLORING_CATEGORY || may_be_words ||
+           o->bounce.count;
 }
 
 int cgt_figure_is_decided(const cgt_figure *figure)
@@ -93,6 +102,8 @@ int cgt_figure_is_decided(const cgt_figure *figure)
     const survey *s = &figure->survey;
     if (s->kind == CGT_TRAJECTORY_TRIANGLES && figure->options.bounce.count)
         return 0;
+    if (may_have_words(figure))
+        return figure->categories.has_words || figure->options.has_range;
     return figure->options.by != COLORING_AUTO || s->kind == CGT_TRAJECTORY_TRIANGLES || s->has_element ||
            s->type_max > s->type_min;
 }
@@ -176,10 +187,30 @@ void cgt_figure_name_camera(const cgt_figure *figure, const cgt_camera *camera, 
 
 /* ---- Colours ------------------------------------------------------------------------------------------------ */
 
+/* What the survey must know of categories. */
+static int check_categories(cgt_figure *figure)
+{
+    const categories *const c = &figure->categories;
+    if (figure->survey.kind == CGT_TRAJECTORY_TRIANGLES)
+        return cgt_figure_fail(figure, "--%s: categories are of spheres, and these are triangles",
+                               figure->options.by == COLORING_CATEGORY ? "category" : "color");
+    if (c->has_fraction && !c->has_words)
+        return cgt_figure_fail(figure,
+                               "--category: \"%s\" has the value %s: it takes whole numbers, as floor() makes them, or "
+                               "words; --color shows amounts",
+                               figure->options.formula, cgt_number(6, c->fraction).text);
+    return c->failed ? cgt_figure_fail(figure, "out of memory for the categories") : 0;
+}
+
 int cgt_figure_choose_colors(cgt_figure *figure)
 {
     const figure_options *o = &figure->options;
-    const coloring_by by = o->by == COLORING_AUTO ? cgt_coloring_choose(&figure->survey) : o->by;
+    const int is_words = may_have_words(figure) && figure->categories.has_words;
+    const coloring_by by = is_words                 ? COLORING_CATEGORY
+                           : o->by == COLORING_AUTO ? cgt_coloring_choose(&figure->survey)
+                                                    : o->by;
+    if (by == COLORING_CATEGORY && check_categories(figure))
+        return -1;
     const int axis = o->up[0] != 0.0f ? 0 : o->up[1] != 0.0f ? 1 : 2;
     double min = o->range_min, max = o->range_max;
     if (!o->has_range)
@@ -199,10 +230,11 @@ int cgt_figure_choose_colors(cgt_figure *figure)
     if (by == COLORING_PLAIN ? cgt_coloring_init_plain(&figure->coloring, o->plain)
                              : cgt_coloring_init(&figure->coloring, by, o->map, min, max))
         return cgt_figure_fail(figure, "out of memory");
-    cgt_figure_scene_color(figure);
     figure->coloring.axis = axis;
     figure->coloring.formula = figure->formula;
-    figure->coloring.logarithmic = o->logarithmic && by != COLORING_TYPE && by != COLORING_PLAIN && min > 0.0;
+    figure->coloring.categories = &figure->categories;
+    figure->coloring.logarithmic = o->logarithmic && !coloring_has_kinds(by) && by != COLORING_PLAIN && min > 0.0;
+    cgt_figure_scene_color(figure);
     if (o->logarithmic && !figure->coloring.logarithmic)
         cgt_notices_add(&figure->notices, "--log-scale: there is nothing above 0 to scale: the scale is linear");
     return 0;
@@ -382,6 +414,7 @@ void cgt_figure_close(cgt_figure *figure)
     cgt_figure_scene_close(figure);
     cgt_frame_sequence_close(&figure->sequence);
     cgt_expression_free(figure->formula);
+    cgt_categories_free(&figure->categories);
     cgt_camera_keys_free(&figure->options.keys);
     cgt_notices_free(&figure->notices);
 }

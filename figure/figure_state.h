@@ -50,8 +50,9 @@ struct cgt_figure {
     survey survey;            /* where has_survey */
     camera_directions fit[2]; /* of the automatic camera, for spheres and for triangles */
 
-    coloring coloring;   /* its index is that of the frame that is drawn */
-    expression *formula; /* of the colours; NULL: none */
+    coloring coloring;     /* its index is that of the frame that is drawn */
+    expression *formula;   /* of the colours; NULL: none */
+    categories categories; /* of that formula */
     camera_path path;
     cgt_camera camera; /* of the frame */
     float light[3];    /* towards the first light */

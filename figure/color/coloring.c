@@ -31,7 +31,7 @@ int cgt_coloring_init(coloring *c, coloring_by by, const cgt_colormap *map, doub
     if (!map)
         map = cgt_find_colormap(NULL);
     for (uint32_t i = 0; i < COLORING_STEPS; i++) {
-        if (by == COLORING_TYPE)
+        if (by == COLORING_TYPE || by == COLORING_CATEGORY)
             cgt_get_type_color(i + 1, srgb);
         else if (by == COLORING_ELEMENT)
             cgt_get_element_color(i, srgb);
@@ -52,14 +52,18 @@ int cgt_coloring_init_plain(coloring *c, const float srgb[3])
     return 0;
 }
 
-/* Types count from 1, elements from 0 for none. Beyond the palette they begin again. */
-uint16_t cgt_coloring_entry_of_kind(const coloring *c, uint32_t kind)
+/* Types and categories count from 1, elements from 0 for none. Beyond the palette they begin again. No word is
+ * unknown. */
+uint16_t cgt_coloring_entry_of_kind(const coloring *c, int64_t kind)
 {
-    const uint32_t from = c->by == COLORING_ELEMENT ? 0 : COLORING_STEPS - 1;
-    return (uint16_t)((kind % COLORING_STEPS + from) % COLORING_STEPS);
+    const int64_t from = c->by == COLORING_ELEMENT ? 0 : COLORING_STEPS - 1;
+    if (c->by == COLORING_CATEGORY && c->categories->has_words && kind == 0)
+        return COLORING_UNKNOWN;
+    const int64_t rest = (kind % COLORING_STEPS + from) % COLORING_STEPS;
+    return (uint16_t)(rest < 0 ? rest + COLORING_STEPS : rest);
 }
 
-void cgt_coloring_set_kind(coloring *c, uint32_t kind, const float srgb[3])
+void cgt_coloring_set_kind(coloring *c, int64_t kind, const float srgb[3])
 {
     set_entry(c, cgt_coloring_entry_of_kind(c, kind), srgb);
 }
@@ -115,20 +119,29 @@ static uint16_t entry_at(const coloring *c, const cgt_trajectory_frame *frame, c
     case COLORING_ELEMENT: return frame->element ? cgt_coloring_entry_of_kind(c, frame->element[i]) : 0;
     case COLORING_AUTO:
     case COLORING_VALUE:
+    case COLORING_CATEGORY:
     case COLORING_PLAIN: break;
     }
     return 0;
+}
+
+static uint16_t entry_of_category(const coloring *c, double value)
+{
+    int is_known;
+    const int64_t number = cgt_categories_number(c->categories, value, &is_known);
+    return is_known ? cgt_coloring_entry_of_kind(c, number) : COLORING_UNKNOWN;
 }
 
 static void apply_formula(coloring *c, uint32_t count)
 {
     enum { BLOCK = 256 };
     double values[BLOCK];
+    const int is_category = c->by == COLORING_CATEGORY;
     for (uint32_t first = 0; first < count; first += BLOCK) {
         const uint32_t block = count - first < BLOCK ? count - first : BLOCK;
         cgt_expression_values(c->formula, first, block, values);
         for (uint32_t i = 0; i < block; i++)
-            c->index[first + i] = entry_of(c, values[i]);
+            c->index[first + i] = is_category ? entry_of_category(c, values[i]) : entry_of(c, values[i]);
     }
 }
 
@@ -139,7 +152,11 @@ int cgt_coloring_apply(coloring *c, const cgt_trajectory_frame *frame, const flo
     const uint32_t count = c->per_vertex ? frame->count : frame_primitives(frame);
     if (reserve(c, count))
         return -1;
-    if (c->by == COLORING_VALUE)
+    if (c->by == COLORING_CATEGORY)
+        cgt_categories_take(c->categories, c->formula, frame);
+    if (c->by == COLORING_CATEGORY && c->categories->failed)
+        return -1;
+    if (c->by == COLORING_VALUE || c->by == COLORING_CATEGORY)
         apply_formula(c, count);
     else
         for (uint32_t i = 0; i < count; i++)

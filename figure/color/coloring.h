@@ -12,6 +12,7 @@
 
 #include <cgt/picture.h>
 
+#include "color/categories.h"
 #include "data/expression.h"
 #include "survey/survey.h"
 
@@ -23,7 +24,8 @@ typedef enum coloring_by {
     COLORING_HEIGHT,  /* along an axis, of a sphere's centre */
     COLORING_PLAIN,   /* one colour for all */
     COLORING_ELEMENT, /* chemical */
-    COLORING_VALUE    /* of a formula over the file's columns */
+    COLORING_VALUE,   /* of a formula over the file's columns */
+    COLORING_CATEGORY /* the words or whole numbers of such a formula */
 } coloring_by;
 
 enum {
@@ -37,12 +39,19 @@ typedef struct coloring {
     int axis;                           /* of HEIGHT: 0, 1 or 2; cgt_coloring_init sets 2 */
     double min, max;                    /* values that get the map's first and last colour */
     int logarithmic;                    /* of VALUE and SPEED: 1: equal steps of colour are equal ratios; min > 0 */
-    const expression *formula;          /* of VALUE; bound to the frame by the caller */
+    const expression *formula;          /* of VALUE and CATEGORY; bound to the frame by the caller */
+    categories *categories;             /* of CATEGORY; the caller's */
     float palette[COLORING_ENTRIES][3]; /* linear */
     uint16_t *index;                    /* per sphere, triangle or vertex; never NULL after cgt_coloring_init */
     int per_vertex;                     /* set by cgt_coloring_apply: index is per vertex, to be interpolated */
     size_t capacity;
 } coloring;
+
+/* Whether colours stand for kinds, which a legend names, and not for amounts. */
+static inline int coloring_has_kinds(coloring_by by)
+{
+    return by == COLORING_TYPE || by == COLORING_ELEMENT || by == COLORING_CATEGORY;
+}
 
 /* Fills the palette. map: NULL for the first one; types have colours of their own. max may equal min. Returns 0, or
  * -1 where there is no memory. */
@@ -52,11 +61,11 @@ int cgt_coloring_init(coloring *c, coloring_by by, const cgt_colormap *map, doub
 int cgt_coloring_init_plain(coloring *c, const float srgb[3]);
 void cgt_coloring_free(coloring *c);
 
-/* The palette entry of a type, or of an element by its atomic number, where by is TYPE or ELEMENT. */
-uint16_t cgt_coloring_entry_of_kind(const coloring *c, uint32_t kind);
+/* The palette entry of a type, of an element by its atomic number, or of a category, by what the colours have. */
+uint16_t cgt_coloring_entry_of_kind(const coloring *c, int64_t kind);
 
-/* Gives a type, or an element by its atomic number, a colour of its own, in sRGB from 0 to 1. */
-void cgt_coloring_set_kind(coloring *c, uint32_t kind, const float srgb[3]);
+/* Gives such a kind a colour of its own, in sRGB from 0 to 1. */
+void cgt_coloring_set_kind(coloring *c, int64_t kind, const float srgb[3]);
 
 /* Sets index and per_vertex for a frame: speed and height of triangles are those of their vertices. speeds: those of
  * cgt_speed_next; NULL unless by is COLORING_SPEED. Returns 0, or -1 where there is no memory. */

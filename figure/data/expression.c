@@ -390,6 +390,8 @@ const char *const *cgt_expression_names(const expression *e, size_t *count)
     return e->names;
 }
 
+int cgt_expression_is_name(const expression *e) { return e->step_count == 1 && e->steps[0].op == OP_NAME; }
+
 int cgt_expression_uses(const expression *e, const char *name)
 {
     for (uint32_t i = 0; i < e->name_count; i++)

@@ -32,10 +32,16 @@ const char *const *cgt_expression_names(const expression *e, size_t *count);
 /* Whether the formula uses this name. */
 int cgt_expression_uses(const expression *e, const char *name);
 
+/* Whether the formula is one name alone, such as that of a column. */
+int cgt_expression_is_name(const expression *e);
+
 /* Binds the names to a frame. speed: one for each sphere or vertex, NULL where they are not known. Returns 0, or -1
  * with a sentence that tells which name the frame does not have, and which it has, or which word does not fit. */
 int cgt_expression_bind(expression *e, const cgt_trajectory_frame *frame, const float *speed, char *error,
                         size_t error_size);
+
+/* The column of words that the formula is in the frame it is bound to; NULL: it is another. */
+const cgt_trajectory_column *cgt_expression_words(const expression *e, const cgt_trajectory_frame *frame);
 
 /* Values of the bound frame's spheres or vertices from `first` on. */
 void cgt_expression_values(const expression *e, uint32_t first, uint32_t count, double *values);

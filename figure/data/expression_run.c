@@ -108,6 +108,12 @@ static const cgt_trajectory_column *words_of(const expression *e, uint32_t name,
     return is_bound && column->kind == CGT_TRAJECTORY_WORD ? column : NULL;
 }
 
+const cgt_trajectory_column *cgt_expression_words(const expression *e, const cgt_trajectory_frame *frame)
+{
+    return cgt_expression_is_name(e) && e->steps[0].name < EXPRESSION_NAMES ? words_of(e, e->steps[0].name, frame)
+                                                                            : NULL;
+}
+
 /* The number of a word in its column: 0 is a blank, -1 no sphere has. */
 static double find_word(const cgt_trajectory_column *column, const char *text)
 {

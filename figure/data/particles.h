@@ -15,8 +15,10 @@ enum { PARTICLE_KINDS = 32 };
 
 typedef struct particle_kind {
     int is_element; /* kind is an atomic number, else a type */
+    int is_word;    /* it is neither, but the word of a category */
     uint32_t kind;
-    float value[3]; /* a radius, or a colour in sRGB from 0 to 1 */
+    const char *text; /* as it was given, up to a '=' */
+    float value[3];   /* a radius, or a colour in sRGB from 0 to 1 */
 } particle_kind;
 
 typedef struct particle_rules {

@@ -99,6 +99,29 @@ static int may_have(const figure_options *o, uint32_t samples)
            o->width <= FIGURE_MAX_EDGE / samples && o->height <= FIGURE_MAX_EDGE / samples;
 }
 
+/* Words are of categories, which the colours have or may have. */
+static int check_word(const figure_options *o, const char *option, const particle_kind *kind, char *error, size_t size)
+{
+    if (!kind->is_word || o->by == COLORING_VALUE || o->by == COLORING_CATEGORY)
+        return 0;
+    return cgt_refuse(error, size,
+                      "--%s: \"%.*s\" is neither a type's number nor a chemical element, and the colours are not those "
+                      "of words: see --color",
+                      option, (int)strcspn(kind->text, "="), kind->text);
+}
+
+static int check_words(const figure_options *o, char *error, size_t size)
+{
+    const particle_options *const p = &o->particles;
+    for (uint32_t i = 0; i < p->color_count; i++)
+        if (check_word(o, "type-color", &p->colors[i], error, size))
+            return -1;
+    for (uint32_t i = 0; i < p->name_count; i++)
+        if (check_word(o, "type-name", &p->names[i].kind, error, size))
+            return -1;
+    return 0;
+}
+
 int cgt_figure_options_finish(figure_options *o, char *error, size_t size)
 {
     o->floor.is_set |= o->floor.axis || o->floor.has_height || o->floor.has_place;
@@ -123,7 +146,7 @@ int cgt_figure_options_finish(figure_options *o, char *error, size_t size)
         return cgt_refuse(error, size, "--view: the direction must not be along the axis that points up");
     if (o->bounce.count && !o->bounce.is_set)
         return cgt_refuse(error, size, "--material is for --bounces");
-    return 0;
+    return check_words(o, error, size);
 }
 
 void cgt_figure_options_init(figure_options *o)

@@ -163,7 +163,7 @@ typedef struct figure_options {
     int unwrap, whole; /* molecules */
 
     coloring_by by;
-    const char *formula; /* of COLORING_VALUE */
+    const char *formula; /* of COLORING_VALUE and COLORING_CATEGORY */
     int logarithmic;
     float plain[3]; /* sRGB, 0 to 1: the one colour of COLORING_PLAIN */
     const cgt_colormap *map;

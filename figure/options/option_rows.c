@@ -42,10 +42,15 @@ const option_row cgt_figure_rows[] = {
      FLOAT(zoom, 0.1f, 100.0)},
     {.help = "Colours and light:", .group = 3},
     {"color", 'k', "BY",
-     "type, element, id, speed, height, one colour as RRGGBB or by name, or a formula over the file's columns, such as "
-     "c_pe or 'sqrt(vx^2+vy^2)'; or auto (default): element where the file has some, type where it has several, else "
+     "type, element, id, speed, height, one colour as RRGGBB or by name, a column of words, such as chain or resname, "
+     "in colours that tell words apart, or a formula over the file's columns, such as c_pe or 'sqrt(vx^2+vy^2)'; or "
+     "auto (default): element where the file has some, type where it has several, else "
      "for spheres speed where they move, else id, for triangles dcd3c4",
      WHOLE(cgt_parse_coloring), .words = "auto type element id speed height"},
+    {"category", 0, "COLUMN|FORMULA",
+     "Colours that tell apart: one for each whole number of a column or formula, such as mol or 'floor(x/10)', or for "
+     "each word of a column, as --color=COLUMN has where there are words",
+     WHOLE(cgt_parse_category)},
     {"colormap", 0, "NAME",
      "For values: viridis (default), plasma, cividis, magma, inferno, batlow; for values about 0 coolwarm, vik, "
      "berlin; "
@@ -114,10 +119,11 @@ const option_row cgt_figure_rows[] = {
      "{time:.2f} has two decimals in all frames",
      TEXT(picture.time), OTHERWISE("")},
     {"colorbar", 0, "TITLE",
-     "A bar with the colours' values, with this title, such as 'speed, nm/ps'; of types and elements a legend",
+     "A bar with the colours' values, with this title, such as 'speed, nm/ps'; of types, elements and categories a "
+     "legend",
      TEXT(picture.bar), OTHERWISE("")},
     {"legend", 0, "TITLE",
-     "Swatches with the names of the types or elements that are drawn in any frame, with this title",
+     "Swatches with the names of the types, elements or categories that are drawn in any frame, with this title",
      TEXT(picture.legend), OTHERWISE("")},
     {"axes", 0, NULL, "The directions of x, y and z in a corner", FLAG(picture.axes)},
     {"font", 0, "FILE", "Font of texts; default DejaVu Sans", TEXT(picture.font)},
@@ -143,9 +149,10 @@ const option_row cgt_figure_rows[] = {
      FLOAT(particles.radius_scale, FLT_MIN, 1e30f)},
     {"type-radius", 0, "TYPE=R", "Radius of a type, by its number, or of an element: 2=0.4, O=1.2",
      PARSED(particles, cgt_parse_type_radius), .repeats = 1},
-    {"type-color", 0, "TYPE=COLOR", "Colour of a type or an element: 2=red, O=00a0ff",
+    {"type-color", 0, "TYPE=COLOR",
+     "Colour of a type, an element, or a category by its word or number: 2=red, O=00a0ff, ALA=gold",
      PARSED(particles, cgt_parse_type_color), .repeats = 1},
-    {"type-name", 0, "TYPE=NAME", "What --legend calls a type or an element: 2=water",
+    {"type-name", 0, "TYPE=NAME", "What --legend calls a type, an element or a category: 2=water, A='chain A'",
      PARSED(particles, cgt_parse_type_name), .repeats = 1},
     {"images", 0, "A,B,C", "Repeat everything so many times along the edges of the box",
      PARSED(particles.images, cgt_parse_images)},

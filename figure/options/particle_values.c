@@ -144,6 +144,13 @@ int cgt_parse_floor_place(const char *text, void *to, char *error, size_t size)
 
 /* ---- Types --------------------------------------------------------------------------------------------------- */
 
+enum { TYPE_SIZE = 64 }; /* as long as words of columns are */
+
+static int is_type(const char *name)
+{
+    return (*name && strspn(name, "0123456789") == strlen(name)) || element_named(name);
+}
+
 /* A type's number, or the symbol of an element. nor: what else it may be, for the sentence. */
 static int parse_type(const char *name, const char *nor, int *is_element, uint32_t *kind, char *error, size_t size)
 {
@@ -157,10 +164,10 @@ static int parse_type(const char *name, const char *nor, int *is_element, uint32
     return -1;
 }
 
-/* TYPE=VALUE: copies the type, of at most 31 characters. Returns the value, or NULL with a sentence. */
-static const char *split_type(const char *text, const char *form, char name[32], char *error, size_t size)
+/* TYPE=VALUE: copies the type. Returns the value, or NULL with a sentence. */
+static const char *split_type(const char *text, const char *form, char name[TYPE_SIZE], char *error, size_t size)
 {
-    const char *value = cgt_split(text, '=', name, 32);
+    const char *value = cgt_split(text, '=', name, TYPE_SIZE);
     if (value && *name)
         return value;
     snprintf(error, size, "\"%s\" is not of the form %s", text, form);
@@ -173,21 +180,27 @@ static int refuse_more(uint32_t most, char *error, size_t size)
     return -1;
 }
 
-/* TYPE=VALUE: sets the kind. Returns the value, or NULL with a sentence. */
-static const char *parse_kind(const char *text, particle_kind *kind, uint32_t count, char *error, size_t size)
+/* TYPE=VALUE: sets the kind. may_be_word: it may also be a category, whose words the data tell: others are refused by
+ * cgt_figure_options_finish. Returns the value, or NULL with a sentence. */
+static const char *parse_kind(const char *text, int may_be_word, particle_kind *kind, uint32_t count, char *error,
+                              size_t size)
 {
-    char name[32];
+    char name[TYPE_SIZE];
     if (count == PARTICLE_KINDS && refuse_more(PARTICLE_KINDS, error, size))
         return NULL;
-    const char *value = split_type(text, "TYPE=VALUE", name, error, size);
-    return value && parse_type(name, "", &kind->is_element, &kind->kind, error, size) == 0 ? value : NULL;
+    const char *const value = split_type(text, "TYPE=VALUE", name, error, size);
+    if (!value)
+        return NULL;
+    kind->text = text;
+    kind->is_word = may_be_word && !is_type(name);
+    return kind->is_word || parse_type(name, "", &kind->is_element, &kind->kind, error, size) == 0 ? value : NULL;
 }
 
 int cgt_parse_type_radius(const char *text, void *to, char *error, size_t size)
 {
     particle_options *o = to;
     particle_kind kind;
-    const char *value = parse_kind(text, &kind, o->radius_count, error, size);
+    const char *value = parse_kind(text, 0, &kind, o->radius_count, error, size);
     if (!value || cgt_read_float(value, 0.0f, 1e30f, &kind.value[0], error, size))
         return -1;
     o->radii[o->radius_count++] = kind;
@@ -199,7 +212,7 @@ int cgt_parse_type_color(const char *text, void *to, char *error, size_t size)
     particle_options *o = to;
     particle_kind kind;
     uint8_t rgb[3];
-    const char *value = parse_kind(text, &kind, o->color_count, error, size);
+    const char *value = parse_kind(text, 1, &kind, o->color_count, error, size);
     if (!value || cgt_parse_color(value, rgb, error, size))
         return -1;
     for (int c = 0; c < 3; c++)
@@ -212,7 +225,7 @@ int cgt_parse_type_name(const char *text, void *to, char *error, size_t size)
 {
     particle_options *o = to;
     particle_name name;
-    name.name = parse_kind(text, &name.kind, o->name_count, error, size);
+    name.name = parse_kind(text, 1, &name.kind, o->name_count, error, size);
     if (!name.name)
         return -1;
     o->names[o->name_count++] = name;
@@ -256,7 +269,7 @@ int cgt_parse_material(const char *text, void *to, char *error, size_t size)
 {
     bounce_options *o = to;
     bounce_material m = {0};
-    char name[32];
+    char name[TYPE_SIZE];
     const char *value = split_type(text, "TYPE=KIND", name, error, size);
     if (!value)
         return -1;

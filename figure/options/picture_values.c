@@ -117,6 +117,13 @@ int cgt_parse_coloring(const char *text, void *to, char *error, size_t size)
     return 0;
 }
 
+int cgt_parse_category(const char *text, void *to, char *error, size_t size)
+{
+    figure_options *o = to;
+    o->by = COLORING_CATEGORY;
+    return cgt_parse_formula(text, &o->formula, error, size);
+}
+
 int cgt_parse_colormap(const char *text, void *to, char *error, size_t size)
 {
     const cgt_colormap *found = cgt_find_colormap(text);

@@ -66,6 +66,9 @@ void cgt_figure_scene_bound(cgt_figure *figure);
 /* After the colours are chosen: colours of types and figures. */
 void cgt_figure_scene_color(cgt_figure *figure);
 
+/* What the options call a type, element or category, by what the colours have; NULL: nothing. */
+const char *cgt_figure_name_of(const cgt_figure *figure, int64_t number);
+
 /* After the camera is chosen: makes the floor. */
 void cgt_figure_scene_floor(cgt_figure *figure);
 

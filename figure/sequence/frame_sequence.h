@@ -9,6 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "color/categories.h"
 #include "data/expression.h"
 #include "data/particles.h"
 #include "sequence/trail_history.h"
@@ -30,6 +31,7 @@ typedef struct frame_sequence {
     expression *formulas[SEQUENCE_FORMULAS]; /* bound to each frame; the caller's */
     uint32_t formula_count;
     int wants_kinds;             /* a survey tells which types and elements are shown; the caller's */
+    categories *categories;      /* a survey tells of the first formula's; NULL: it does not; the caller's */
     const particle_rules *rules; /* of what is drawn, for a survey; NULL: all as it is; the caller's */
 } frame_sequence;
 

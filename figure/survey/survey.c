@@ -326,6 +326,14 @@ static void survey_piece(void *user, uint32_t index)
     }
 }
 
+/* By one thread: words get their numbers in the order of the data. */
+static void look_at_categories(const frame_sequence *s)
+{
+    cgt_categories_take(s->categories, s->formulas[0], &s->frame);
+    if (s->categories->has_words || s->categories->takes_numbers)
+        cgt_categories_look(s->categories, s->formulas[0], s->rules ? s->rules->show : NULL, s->frame.count);
+}
+
 void cgt_survey_look(survey_team *team)
 {
     const cgt_trajectory_frame *const frame = &team->sequence->frame;
@@ -339,6 +347,8 @@ void cgt_survey_look(survey_team *team)
         cgt_speed_boxless_steps(team->sequence->tracker, steps);
     for (int c = 0; c < 3; c++)
         team->first->boxless_steps[c] = fmaxf(team->first->boxless_steps[c], steps[c]);
+    if (team->sequence->categories)
+        look_at_categories(team->sequence);
     team->pieces = most < team->threads ? most : team->threads;
     cgt_context_run_tasks(team->context, survey_piece, team, team->pieces);
 }

@@ -189,7 +189,8 @@ static void print_range_rule(const renderer *r, FILE *to)
 static void print_summary(const renderer *r)
 {
     FILE *const to = r->summary;
-    static const char *const names[] = {"auto", "type", "id", "speed", "height", "one for all", "element", "formula"};
+    static const char *const names[] = {"auto",        "type",    "id",      "speed",   "height",
+                                        "one for all", "element", "formula", "category"};
     const render_options *o = &r->options;
     char name[4096];
     if (r->report.count == 0)
@@ -201,10 +202,8 @@ static void print_summary(const renderer *r)
             cgt_context_get_threads(r->context) == 1 ? "" : "s", cgt_context_get_variant(r->context));
     fprintf(to, "camera            -c ");
     renderer_print_camera(r, &r->figure.path.start, to);
-    fprintf(to, "colour            %s",
-            r->figure.coloring.by == COLORING_VALUE ? o->figure.formula : names[r->figure.coloring.by]);
-    if (r->figure.coloring.by != COLORING_TYPE && r->figure.coloring.by != COLORING_PLAIN &&
-        r->figure.coloring.by != COLORING_ELEMENT)
+    fprintf(to, "colour            %s", r->figure.formula ? o->figure.formula : names[r->figure.coloring.by]);
+    if (r->figure.coloring.by != COLORING_PLAIN && !coloring_has_kinds(r->figure.coloring.by))
         fprintf(to, " from %g to %g", r->figure.coloring.min, r->figure.coloring.max);
     print_range_rule(r, to);
     if (r->figure.coloring.by == COLORING_SPEED)

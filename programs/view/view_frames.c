@@ -282,7 +282,8 @@ view_frames *view_frames_start(frame_source *source, const view_frames_options *
     }
     f->options = *options;
     f->source = *source;
-    f->source.sequence->formula_count = 0; /* who draws binds them */
+    f->source.sequence->formula_count = 0; /* who draws binds them, */
+    f->source.sequence->categories = NULL; /* and tells their words */
     memset(source, 0, sizeof *source);
     f->reading = *options->reading;
     f->reading.follow = 0.0;

@@ -71,6 +71,13 @@ refused() {
     grep -q -e "$pattern" "$tmp/figure.err" || fail "no \"$pattern\": $(head -n 2 "$tmp/figure.err")"
 }
 
+# Words and numbers of atoms that come and go.
+for k in 0 1 2; do
+    printf '%s\nProperties=species:S:1:pos:R:3:site_of:S:1:mol:I:1\n' $((9 + k))
+    awk -v n=$((9 + k)) 'BEGIN { for (i = n - 1; i >= 0; i--)
+        print "C", i % 3 * 2, int(i / 3) * 2, 0, substr("abcdefghijkl", i + 1, 1) "x", i - 2 }'
+done >"$tmp/words.xyz"
+
 cp "$data/caffeine.xyz" "$tmp"
 both grains.lammpstrj
 both grains.lammpstrj color=c_pe range=1,9 style=paper antialias=2
@@ -88,9 +95,13 @@ both far.lammpstrj camera=1000030,1000004,1000004,1000004,1000004,1000004,0,0,1,
 both cube.obj
 both cube.obj bounces=4 material=all=glass floor
 both caffeine.xyz bonds radius-scale=0.3 outline
+both words.xyz color=site_of type-color=kx=black
+both words.xyz category=mol type-color=1=black range=0,1 camera=2,3,20,2,3,0,0,1,0,30
 if ! $emulator "$program" -q -n -s 8x8 --title A "$tmp/cube.obj" 2>&1 | grep -q 'FreeType\|DejaVu'; then
     both grains.lammpstrj title=Grains 'time=step {step}' color=c_pe colorbar=energy axes
     both grains.lammpstrj color=type legend=kinds type-name=2=water
+    both words.xyz color=site_of legend type-name=ax=first hide='mol > 6'
+    both words.xyz category='mol * 3' colorbar
 fi
 
 refused 'there is no option "colour"' colour=red

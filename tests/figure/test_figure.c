@@ -236,6 +236,78 @@ TEST(words_are_compared_in_formulas)
     cgt_figure_release(figure);
 }
 
+/* A figure that is drawn with one option, in a camera that shows all frames alike. */
+static void draw_with(const char *name, const char *value, const cgt_figure_data *data, uint8_t rgb[BYTES])
+{
+    cgt_figure *const figure = make_figure();
+    assert_int_equal(cgt_figure_set(figure, "camera", "2,-9,9,2,2,0,0,0,1,40"), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, name, value), CGT_OK);
+    draw(figure, data, rgb);
+    cgt_figure_release(figure);
+}
+
+/* Words have the colours of types, by their order in the run; so have whole numbers. */
+TEST(categories_have_colours)
+{
+    static const char *const names[] = {"wall", "grain", "oil"}, *const other[] = {"oil", "wall", "grain"};
+    static uint32_t turned[GRAINS];
+    cgt_figure_data data = grains();
+    uint8_t types[BYTES], drawn[BYTES];
+    for (uint32_t i = 0; i < GRAINS; i++) {
+        numbers[i] = i % 3 + 1;
+        turned[i] = (i % 3 + 1) % 3 + 1;
+        halves[i] = (float)(i % 2) / 2.0f;
+    }
+    const cgt_figure_column all[] = {
+        {.name = "type", .values = cgt_uint32s(numbers, 0)},
+        {.name = "kind", .values = cgt_uint32s(numbers, 0), .words = names, .word_count = 3},
+        {.name = "half", .values = cgt_floats(halves, 0)}};
+    const cgt_figure_column later = {.name = "kind", .values = cgt_uint32s(turned, 0), .words = other, .word_count = 3};
+    data.points.columns = all;
+    data.points.column_count = 3;
+    draw_with("color", "type", &data, types);
+    draw_with("color", "kind", &data, drawn);
+    assert_memory_equal(drawn, types, sizeof drawn);
+    draw_with("category", "kind", &data, drawn);
+    assert_memory_equal(drawn, types, sizeof drawn);
+    draw_with("category", "type", &data, drawn);
+    assert_memory_equal(drawn, types, sizeof drawn);
+    draw_with("category", "type + 1024", &data, drawn); /* they begin again */
+    assert_memory_equal(drawn, types, sizeof drawn);
+    cgt_figure *const figure = make_figure();
+    assert_int_equal(cgt_figure_set(figure, "camera", "2,-9,9,2,2,0,0,0,1,40"), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "color", "kind"), CGT_OK);
+    draw(figure, &data, drawn);
+    assert_memory_equal(drawn, types, sizeof drawn);
+    data.number = 1; /* the same words in another order */
+    data.points.columns = &later;
+    data.points.column_count = 1;
+    draw(figure, &data, drawn);
+    assert_memory_equal(drawn, types, sizeof drawn);
+    data.number = 0;
+    data.points.columns = all;
+    data.points.column_count = 3;
+    assert_int_equal(cgt_figure_set(figure, "type-color", "grain=102030"), CGT_OK);
+    draw(figure, &data, drawn);
+    assert_memory_not_equal(drawn, types, sizeof drawn);
+    cgt_figure *const by_number = make_figure();
+    assert_int_equal(cgt_figure_set(by_number, "camera", "2,-9,9,2,2,0,0,0,1,40"), CGT_OK);
+    assert_int_equal(cgt_figure_set(by_number, "type-color", "2=102030"), CGT_OK);
+    assert_int_equal(cgt_figure_set(by_number, "category", "type"), CGT_OK);
+    draw(by_number, &data, types);
+    assert_memory_equal(drawn, types, sizeof drawn);
+    cgt_figure_release(by_number);
+    assert_int_equal(cgt_figure_set(figure, "color", "type"), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "--type-color: \"grain\" is neither");
+    assert_int_equal(cgt_figure_set(figure, "category", "half"), CGT_OK);
+    assert_int_equal(cgt_figure_show(figure, &data), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "\"half\" has the value 0.5");
+    assert_int_equal(cgt_figure_set(figure, "category", "kin"), CGT_OK);
+    assert_int_equal(cgt_figure_show(figure, &data), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "has no column \"kin\", but x, y, z, type, kind, half");
+    cgt_figure_release(figure);
+}
+
 static void refuse(cgt_figure *figure, const cgt_figure_data *data, const char *text)
 {
     assert_int_equal(cgt_figure_show(figure, data), CGT_ERROR_INVALID_ARGUMENT);

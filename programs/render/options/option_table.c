@@ -38,6 +38,7 @@ static const option_row rows[] = {
     {"zoom", .type = OPTION_FIGURE},
     {.help = "Colours and light:", .group = 3},
     {"color", .type = OPTION_FIGURE},
+    {"category", .type = OPTION_FIGURE},
     {"colormap", .type = OPTION_FIGURE},
     {"range", .type = OPTION_FIGURE},
     {"log-scale", .type = OPTION_FIGURE},

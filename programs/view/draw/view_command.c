@@ -90,7 +90,8 @@ char **view_draw_command(view_draw *d, const cgt_camera *camera, const char *pat
     add(&c, "--size=%ux%u", s->width, s->height);
     add(&c, "--antialias=%u", s->samples);
     /* -c excludes --up, which says what height is */
-    add(&c, "--color=%s", r->figure.coloring.by == COLORING_HEIGHT && s->has_up ? view_draw_measured(s) : d->color);
+    add(&c, "--%s=%s", s->by == COLORING_CATEGORY ? "category" : "color",
+        r->figure.coloring.by == COLORING_HEIGHT && s->has_up ? view_draw_measured(s) : d->color);
     if (view_draw_has_range(&r->figure.coloring))
         add(&c, "--range=%.17g,%.17g", r->figure.coloring.min, r->figure.coloring.max);
     if (s->picture.ortho)

@@ -35,10 +35,10 @@ static void free_quick(view_draw *d)
 
 void view_draw_name_color(view_draw *d)
 {
-    static const char *const names[] = {"auto", "type", "id", "speed", "height", "", "element", ""};
+    static const char *const names[] = {"auto", "type", "id", "speed", "height", "", "element", "", ""};
     const renderer *const r = &d->r;
     const coloring_by by = r->figure.coloring.by;
-    if (by == COLORING_VALUE)
+    if (by == COLORING_VALUE || by == COLORING_CATEGORY)
         snprintf(d->color, sizeof d->color, "%s", r->figure.options.formula);
     else if (by != COLORING_PLAIN)
         snprintf(d->color, sizeof d->color, "%s", names[by]);
@@ -63,10 +63,7 @@ static uint64_t choose_survey(const render_options *o)
     return bytes <= small ? UINT64_MAX : few;
 }
 
-int view_draw_has_range(const coloring *c)
-{
-    return c->by != COLORING_TYPE && c->by != COLORING_ELEMENT && c->by != COLORING_PLAIN;
-}
+int view_draw_has_range(const coloring *c) { return c->by != COLORING_PLAIN && !coloring_has_kinds(c->by); }
 
 /* Values that are all the same have a range, too, so that a command line can give it. */
 void view_draw_widen_range(coloring *c)

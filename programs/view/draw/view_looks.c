@@ -89,6 +89,12 @@ int view_draw_color(view_draw *d, const view_frame *f, const char *by)
     r->figure.formula = o.by == COLORING_VALUE ? e : NULL;
     if (o.by != COLORING_VALUE)
         cgt_expression_free(e);
+    cgt_categories_free(&r->figure.categories);
+    if (r->figure.formula) {
+        cgt_categories_take(&r->figure.categories, e, &f->frame);
+        if (r->figure.categories.has_words)
+            cgt_categories_look(&r->figure.categories, e, r->figure.parts.show, f->frame.count);
+    }
     memcpy(d->formula, text, sizeof d->formula);
     o.formula = o.by == COLORING_VALUE ? d->formula : NULL;
     r->figure.options = o;

@@ -228,6 +228,21 @@ refuses 1 'no column "resname", by which to know water, but x, y, z' --hide wate
 refuses 2 '--show: ' --show 'charge >' row.xyz
 refuses 1 'no column "mass", but x, y, z' --show 'mass > 1' row.xyz
 refuses 2 '--type-color: ' --type-color Xx=red row.xyz
+# Words and whole numbers in the colours of types, whatever is shown.
+draw words -c $camera --color=species row.xyz
+draw words_as -c $camera --category='if(element == 8, 1, if(element == 1, 2, 3))' row.xyz
+same words words_as "words have not the colours of kinds"
+draw one_word -c $camera --color=species --hide=O row.xyz
+draw one_word_as -c $camera --color=species --type-color=O=red --hide=O row.xyz
+same one_word one_word_as "a colour depends on what is shown"
+draw own_word -c $camera --color=species --type-color=O=red row.xyz
+differs words own_word "--type-color of a word"
+draw looked -c $camera --color=species --survey 1 row.xyz
+same words looked "--survey changes the colours of words"
+refuses 1 'no column "specie", but x, y, z, species, charge' --category specie row.xyz
+refuses 1 'value 0.5: it takes whole numbers' --category 'charge / 2' row.xyz
+run 0 -q -n -s 8x8 -c $camera --color=species --type-color=Xx=red row.xyz
+says err 'tell nothing apart that is called "Xx"'
 refuses 2 '--type-radius: ' --type-radius 1 row.xyz
 refuses 2 '--cut: ' --cut 1,1,1,0,0,0 row.xyz
 refuses 2 '--images: ' --images 0,1,1 row.xyz

@@ -195,6 +195,73 @@ TEST(values_find_their_entries)
     cgt_coloring_free(&c);
 }
 
+/* Words are named in the order of the data, those without one last; numbers in their own. */
+TEST(categories_are_sorted)
+{
+    static const char words[3][64] = {"B", "A", "C"};
+    static const float value[6] = {3, 0, 1, 2, 2, 0}, number[6] = {7, -2, 7, 0, 40, -2};
+    const cgt_trajectory_column column[2] = {{"chain", CGT_TRAJECTORY_WORD, value, 3, words},
+                                             {"mol", CGT_TRAJECTORY_WHOLE, number, 0, NULL}};
+    const float xyzr[24] = {0};
+    const cgt_trajectory_frame frame = {.count = 6, .xyzr = xyzr, .columns = 2, .column = column};
+    static const struct {
+        const char *formula, *show, *sorted;
+    } rows[] = {{"chain", NULL, "B A C none "},
+                {"chain", "chain != A", "B C none "},
+                {"mol", NULL, "-2 0 7 40 "},
+                {"mol", "mol > 40", ""}};
+    for (size_t i = 0; i < TEST_COUNT(rows); i++) {
+        char error[200], name[64], all[200] = "";
+        categories c = {.takes_numbers = 1};
+        expression *const e = cgt_expression_parse(rows[i].formula, error, sizeof error);
+        expression *const show = rows[i].show ? cgt_expression_parse(rows[i].show, error, sizeof error) : NULL;
+        assert_int_equal(cgt_expression_bind(e, &frame, NULL, error, sizeof error), 0);
+        assert_true(!show || cgt_expression_bind(show, &frame, NULL, error, sizeof error) == 0);
+        cgt_categories_take(&c, e, &frame);
+        cgt_categories_look(&c, e, show, frame.count);
+        int64_t *const sorted = cgt_categories_sort(&c);
+        for (size_t k = 0; k < c.shown.count; k++) {
+            cgt_categories_name(&c, sorted[k], name, sizeof name);
+            strcat(strcat(all, name), " ");
+        }
+        assert_string_equal(all, rows[i].sorted);
+        free(sorted);
+        cgt_categories_free(&c);
+        cgt_expression_free(e);
+        cgt_expression_free(show);
+    }
+}
+
+/* More than any table begins with. */
+TEST(categories_may_be_many)
+{
+    enum { MANY = 5000 };
+    static char words[MANY][64];
+    static float value[MANY], xyzr[4 * MANY];
+    char error[200];
+    for (uint32_t i = 0; i < MANY; i++) {
+        snprintf(words[i], sizeof words[i], "w%u", (unsigned)(i * 7919 % MANY));
+        value[i] = (float)(i + 1);
+    }
+    const cgt_trajectory_column column = {"word", CGT_TRAJECTORY_WORD, value, MANY, (const char(*)[64])words};
+    const cgt_trajectory_frame frame = {.count = MANY, .xyzr = xyzr, .columns = 1, .column = &column};
+    categories c = {.takes_numbers = 0};
+    expression *const e = cgt_expression_parse("word", error, sizeof error);
+    int64_t number;
+    assert_int_equal(cgt_expression_bind(e, &frame, NULL, error, sizeof error), 0);
+    cgt_categories_take(&c, e, &frame);
+    cgt_categories_take(&c, e, &frame);
+    cgt_categories_look(&c, e, NULL, frame.count);
+    assert_true(!c.failed && c.words == MANY && c.shown.count == MANY);
+    for (uint32_t i = 0; i < MANY; i++) {
+        assert_int_equal(cgt_categories_find(&c, words[i], strlen(words[i]), &number), 0);
+        assert_int_equal(number, i + 1);
+    }
+    assert_int_equal(cgt_categories_find(&c, "w", 1, &number), -1);
+    cgt_categories_free(&c);
+    cgt_expression_free(e);
+}
+
 /* Height is that of a sphere's centre, or of each vertex; ids and types are the triangles', of which there are two. */
 TEST(triangles_find_their_entries)
 {
