@@ -62,8 +62,8 @@ cgt_picture_options cgt_figure_get_settings(const cgt_figure *figure)
         s.style.outline_color[c] = 0.01f;
     }
     if (figure->parts.mesh_entries && figure->options.particles.mesh_opacity < 1.0f) {
-        s.style.front = figure->options.particles.mesh_opacity;
-        s.style.behind_mask = MASK_ALL_BUT_MESH;
+        s.style.layers[0] = (cgt_picture_layer){MASK_MESH, figure->options.particles.mesh_opacity};
+        s.style.layer_count = 1;
     }
     if (figure->bounce)
         cgt_figure_bounce_settings(figure, &s);

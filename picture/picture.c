@@ -20,7 +20,7 @@ struct cgt_picture {
     cgt_picture_options options;
     int has_default_light;
     srgb_table srgb;
-    drawing front, behind; /* behind: the same without what is in front, where that is transparent */
+    drawing opaque, layer[CGT_PICTURE_MAX_LAYERS];
     picture_looks looks;
     picture_state state;
     const cgt_scene *scene;
@@ -28,7 +28,13 @@ struct cgt_picture {
     char message[256];
 };
 
-static int has_layers(const cgt_picture_options *o) { return o->style.front < 1.0f && o->shading == CGT_SHADING_FULL; }
+static uint32_t layers_of(const cgt_picture_options *o)
+{
+    return o->shading == CGT_SHADING_FULL ? o->style.layer_count : 0;
+}
+
+/* The opaque drawing for 0, then the layers; each step is made of all of them. */
+static drawing *part_of(cgt_picture *p, uint32_t k) { return k ? &p->layer[k - 1] : &p->opaque; }
 
 static cgt_result fail(cgt_picture *p, cgt_result result, const char *message)
 {
@@ -61,11 +67,35 @@ static int has_same_planes(const cgt_picture_options *a, const cgt_picture_optio
 {
     int same = a->width == b->width && a->height == b->height && a->antialias == b->antialias &&
                a->shading == b->shading && !a->lighting.ambient == !b->lighting.ambient &&
-               a->lighting.light_count == b->lighting.light_count && has_layers(a) == has_layers(b);
+               a->lighting.light_count == b->lighting.light_count && layers_of(a) == layers_of(b);
     for (uint32_t i = 0; i < a->lighting.light_count && same; i++)
         same = a->lighting.lights[i].shadows == b->lighting.lights[i].shadows &&
                draw_is_soft(&a->lighting.lights[i]) == draw_is_soft(&b->lighting.lights[i]);
     return same;
+}
+
+static void free_parts(cgt_picture *p)
+{
+    for (uint32_t k = 0; k <= CGT_PICTURE_MAX_LAYERS; k++)
+        cgt_draw_free(part_of(p, k));
+}
+
+static cgt_result make_planes(cgt_picture *p, const cgt_picture_options *checked)
+{
+    drawing next[1 + CGT_PICTURE_MAX_LAYERS] = {{.options = NULL}};
+    const uint32_t layers = layers_of(checked);
+    for (uint32_t k = 0; k <= layers; k++) {
+        next[k] = (drawing){.options = checked, .srgb = &p->srgb, .context = p->context};
+        if (cgt_draw_init(&next[k]) == 0)
+            continue;
+        while (k-- > 0)
+            cgt_draw_free(&next[k]);
+        return CGT_ERROR_OUT_OF_MEMORY;
+    }
+    free_parts(p);
+    for (uint32_t k = 0; k <= layers; k++)
+        *part_of(p, k) = next[k];
+    return CGT_OK;
 }
 
 /* Makes planes, where they are not there already; what fails leaves the picture as it was. */
@@ -74,23 +104,15 @@ static cgt_result set_options(cgt_picture *p, cgt_picture_options *checked)
     const int has_default_light = cgt_picture_has_default_light(checked);
     if (has_default_light)
         cgt_picture_set_default_light(checked, NULL);
-    if (!has_same_planes(&p->options, checked)) {
-        drawing next[2] = {{.options = checked, .srgb = &p->srgb}, {.options = checked, .srgb = &p->srgb}};
-        if (cgt_draw_init(&next[0]) || (has_layers(checked) && cgt_draw_init(&next[1]))) {
-            cgt_draw_free(&next[0]);
-            return CGT_ERROR_OUT_OF_MEMORY;
-        }
-        cgt_draw_free(&p->front);
-        cgt_draw_free(&p->behind);
-        p->front = next[0];
-        p->behind = next[1];
-        p->front.context = p->behind.context = p->context;
-    }
+    if (!has_same_planes(&p->options, checked) && make_planes(p, checked))
+        return CGT_ERROR_OUT_OF_MEMORY;
     p->options = *checked;
     p->has_default_light = has_default_light;
     p->state = NOTHING;
-    cgt_draw_set_options(&p->front, &p->options);
-    cgt_draw_set_options(&p->behind, &p->options);
+    for (uint32_t k = 0; k <= layers_of(checked); k++)
+        cgt_draw_set_options(part_of(p, k), &p->options);
+    p->opaque.layer = p->layer;
+    p->opaque.layers = layers_of(checked);
     return CGT_OK;
 }
 
@@ -130,8 +152,7 @@ void cgt_picture_release(cgt_picture *p)
 {
     if (!p)
         return;
-    cgt_draw_free(&p->front);
-    cgt_draw_free(&p->behind);
+    free_parts(p);
     cgt_looks_free(&p->looks);
     free(p);
 }
@@ -158,18 +179,26 @@ static cgt_result begin(cgt_picture *p, const cgt_scene *scene, const cgt_camera
         return result;
     if (p->has_default_light)
         cgt_picture_set_default_light(&p->options, camera);
-    drawing *const both[2] = {&p->front, &p->behind};
-    for (int k = 0; k < 1 + has_layers(&p->options); k++) {
-        cgt_camera seen = *camera;
-        both[k]->looks = p->looks.look;
-        both[k]->last_look = p->looks.count - 1;
-        both[k]->has_triangles = both[k]->has_halves = 0;
+    const uint32_t layers = layers_of(&p->options);
+    const cgt_picture_layer *const layer = p->options.style.layers;
+    cgt_camera seen = *camera;
+    for (uint32_t k = 0; k < layers; k++)
+        seen.mask = (seen.mask ? seen.mask : UINT32_MAX) & ~layer[k].mask;
+    if (layers && !seen.mask)
+        return fail(p, CGT_ERROR_INVALID_ARGUMENT, "the mask of a picture's camera has bits of layers alone");
+    for (uint32_t k = 0; k <= layers; k++) {
+        drawing *const d = part_of(p, k);
+        d->looks = p->looks.look;
+        d->last_look = p->looks.count - 1;
+        d->has_triangles = d->has_halves = 0;
         for (uint32_t i = 0; i < p->looks.count; i++) {
-            both[k]->has_triangles |= p->looks.look[i].is_triangles;
-            both[k]->has_halves |= p->looks.look[i].of.halves;
+            d->has_triangles |= p->looks.look[i].is_triangles;
+            d->has_halves |= p->looks.look[i].of.halves;
         }
-        seen.mask = k ? p->options.style.behind_mask : camera->mask;
-        cgt_draw_begin(both[k], &seen);
+        d->light_mask = seen.mask;
+        d->behind = k ? &p->opaque : NULL;
+        cgt_draw_begin(d, &seen);
+        d->camera.mask = k ? layer[k - 1].mask : seen.mask;
     }
     return CGT_OK;
 }
@@ -177,7 +206,7 @@ static cgt_result begin(cgt_picture *p, const cgt_scene *scene, const cgt_camera
 static cgt_result trace_bounces(cgt_picture *p)
 {
     const char *wrong;
-    const cgt_result result = cgt_draw_bounces(&p->front, p->scene, &wrong);
+    const cgt_result result = cgt_draw_bounces(&p->opaque, p->scene, &wrong);
     const cgt_result told = fail_drawing(p, result);
     return wrong ? fail(p, told, wrong) : told;
 }
@@ -201,10 +230,8 @@ cgt_result cgt_picture_begin(cgt_picture *p, const cgt_scene *scene, const cgt_c
         return CGT_OK;
     if (p->options.shading == CGT_SHADING_BOUNCES)
         return trace_bounces(p);
-    if (has_layers(&p->options))
-        result = cgt_draw_trace(&p->behind, scene, NULL);
-    if (result == CGT_OK)
-        result = cgt_draw_trace(&p->front, scene, options);
+    for (uint32_t k = 0; k <= layers_of(&p->options) && result == CGT_OK; k++)
+        result = cgt_draw_trace(part_of(p, k), scene, k ? NULL : options);
     return fail_drawing(p, result);
 }
 
@@ -215,12 +242,10 @@ cgt_result cgt_picture_step(cgt_picture *p, uint32_t samples, uint32_t *left)
         return CGT_ERROR_INVALID_ARGUMENT;
     if (p->state != SCENE)
         return fail(p, CGT_ERROR_INVALID_ARGUMENT, "a picture takes steps after cgt_picture_begin");
-    if (has_layers(&p->options))
-        result = cgt_draw_step(&p->behind, p->scene, samples);
-    if (result == CGT_OK)
-        result = cgt_draw_step(&p->front, p->scene, samples);
+    for (uint32_t k = 0; k <= layers_of(&p->options) && result == CGT_OK; k++)
+        result = cgt_draw_step(part_of(p, k), p->scene, samples);
     if (left)
-        *left = cgt_draw_samples(&p->front) - p->front.samples;
+        *left = cgt_draw_samples(&p->opaque) - p->opaque.samples;
     return fail_drawing(p, result);
 }
 
@@ -230,12 +255,11 @@ cgt_result cgt_picture_read(cgt_picture *p, const cgt_image *image)
         return CGT_ERROR_INVALID_ARGUMENT;
     if (p->state != SCENE || !image)
         return fail(p, CGT_ERROR_INVALID_ARGUMENT, "a picture is read to an image, after cgt_picture_begin");
-    cgt_result result = cgt_picture_check_image(image, &p->options, &p->front.image, p->message, sizeof p->message);
+    cgt_result result = cgt_picture_check_image(image, &p->options, &p->opaque.image, p->message, sizeof p->message);
     if (result != CGT_OK)
         return result;
-    result = p->options.shading == CGT_SHADING_PLAIN ? cgt_draw_tiles(&p->front, p->scene, &p->trace)
-             : has_layers(&p->options)               ? cgt_draw_layers(&p->front, &p->behind)
-                                                     : cgt_draw_shade(&p->front);
+    result = p->options.shading == CGT_SHADING_PLAIN ? cgt_draw_tiles(&p->opaque, p->scene, &p->trace)
+                                                     : cgt_draw_shade(&p->opaque);
     return tell_drawing(p, result);
 }
 
@@ -250,7 +274,7 @@ cgt_result cgt_picture_draw(cgt_picture *p, const cgt_scene *scene, const cgt_ca
 
 uint64_t cgt_picture_get_hits(const cgt_picture *p)
 {
-    return p ? atomic_load_explicit(&p->front.hits, memory_order_relaxed) : 0;
+    return p ? atomic_load_explicit(&p->opaque.hits, memory_order_relaxed) : 0;
 }
 
 /* ---- Tiles from elsewhere ----------------------------------------------------------------------------------- */
@@ -264,18 +288,18 @@ cgt_result cgt_picture_begin_tiles(cgt_picture *p, const cgt_scene *scene, const
         return fail(p, CGT_ERROR_INVALID_ARGUMENT, "tiles make pictures of plain shading, in an image");
     cgt_result result = begin(p, scene, camera, looks, look_count);
     if (result == CGT_OK)
-        result = cgt_picture_check_image(image, &p->options, &p->front.image, p->message, sizeof p->message);
+        result = cgt_picture_check_image(image, &p->options, &p->opaque.image, p->message, sizeof p->message);
     if (result != CGT_OK)
         return result;
-    atomic_store_explicit(&p->front.hits, 0, memory_order_relaxed);
+    atomic_store_explicit(&p->opaque.hits, 0, memory_order_relaxed);
     p->state = TILES;
     if (fields)
-        *fields = cgt_draw_tile_fields(&p->front);
+        *fields = cgt_draw_tile_fields(&p->opaque);
     return CGT_OK;
 }
 
 cgt_visit cgt_picture_visit_tile(void *picture, const cgt_tile *tile)
 {
     cgt_picture *const p = picture;
-    return p->state == TILES ? cgt_draw_tile(&p->front, tile) : CGT_VISIT_STOP;
+    return p->state == TILES ? cgt_draw_tile(&p->opaque, tile) : CGT_VISIT_STOP;
 }

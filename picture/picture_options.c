@@ -17,7 +17,6 @@ void cgt_picture_options_init(cgt_picture_options *options)
     *options = (cgt_picture_options){.width = 1280, .height = 720, .antialias = 1};
     options->lighting.ambient_radius = INFINITY;
     options->lighting.light_samples = DEFAULT_LIGHT_SAMPLES;
-    options->style.front = 1.0f;
 }
 
 static int is_in(float value, float least, float most) { return value >= least && value <= most; }
@@ -91,8 +90,9 @@ static cgt_result check_numbers(const cgt_picture_options *o, char *message, siz
                               (double)o->style.cue_range[0], (double)o->style.cue_range[1]);
     if (!is_in(o->style.outline, 0.0f, 1000.0f))
         return picture_refuse(message, size, "outline %g: 0 to 1,000 pixels", (double)o->style.outline);
-    if (!is_in(o->style.front, 0.0f, 1.0f))
-        return picture_refuse(message, size, "front %g: 0 to 1", (double)o->style.front);
+    if (o->style.layer_count > CGT_PICTURE_MAX_LAYERS)
+        return picture_refuse(message, size, "%u layers: at most %d", o->style.layer_count,
+                              (int)CGT_PICTURE_MAX_LAYERS);
     if (o->bounces.limit > 64 || o->bounces.material_count > 256 ||
         (o->bounces.material_count && !o->bounces.materials))
         return picture_refuse(message, size,
@@ -101,9 +101,22 @@ static cgt_result check_numbers(const cgt_picture_options *o, char *message, siz
     if (!isfinite(o->bounces.up[0]) || !isfinite(o->bounces.up[1]) || !isfinite(o->bounces.up[2]))
         return picture_refuse(message, size, "up %g, %g, %g: must be finite", (double)o->bounces.up[0],
                               (double)o->bounces.up[1], (double)o->bounces.up[2]);
-    if (o->style.front < 1.0f && !o->style.behind_mask)
-        return picture_refuse(message, size, "front %g without a behind_mask: nothing is in front",
-                              (double)o->style.front);
+    return CGT_OK;
+}
+
+static cgt_result check_layers(cgt_picture_style *s, char *message, size_t size)
+{
+    uint32_t taken = 0;
+    for (uint32_t i = 0; i < s->layer_count; i++) {
+        cgt_picture_layer *const l = &s->layers[i];
+        l->opacity = l->opacity == 0.0f ? 1.0f : l->opacity;
+        if (!is_in(l->opacity, 0.0f, 1.0f))
+            return picture_refuse(message, size, "layer %u: opacity %g: 0 to 1", i, (double)l->opacity);
+        if (!l->mask || (l->mask & taken) || (taken |= l->mask) == UINT32_MAX)
+            return picture_refuse(
+                message, size, "layer %u: mask %#x: it needs bits of its own, and one must be left for what is opaque",
+                i, (unsigned)l->mask);
+    }
     return CGT_OK;
 }
 
@@ -119,10 +132,11 @@ cgt_result cgt_picture_check_options(const cgt_picture_options *options, cgt_pic
     if (!o->work.row_count && o->work.first_row < o->height)
         o->work.row_count = o->height - o->work.first_row;
     o->lighting.light_samples = o->lighting.light_samples ? o->lighting.light_samples : defaults.lighting.light_samples;
-    o->style.front = o->style.front == 0.0f ? defaults.style.front : o->style.front;
     if (o->shading == CGT_SHADING_PLAIN)
         o->style.transparent = false;
     cgt_result result = check_numbers(o, message, size);
+    if (result == CGT_OK)
+        result = check_layers(&o->style, message, size);
     for (uint32_t i = 0; i < o->lighting.light_count && result == CGT_OK; i++)
         result = check_light(&o->lighting.lights[i], i, message, size);
     if (result == CGT_OK && o->shading == CGT_SHADING_PLAIN && o->lighting.light_count &&

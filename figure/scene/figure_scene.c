@@ -434,6 +434,7 @@ int cgt_figure_scene_set(cgt_figure *figure, const frame_parts *parts)
     figure_scene *s = &figure->parts;
     const cgt_trajectory_frame *f = figure->frame;
     s->frame = parts;
+    const int is_layer = figure->options.particles.mesh_opacity < 1.0f;
     if (figure->bounce)
         return cgt_figure_bounce_set(figure, parts);
     cgt_result result = f->kind == CGT_TRAJECTORY_TRIANGLES
@@ -444,7 +445,7 @@ int cgt_figure_scene_set(cgt_figure *figure, const frame_parts *parts)
             figure, f->kind == CGT_TRAJECTORY_TRIANGLES ? "take the triangles" : "take the spheres", result);
     figure->has_geometry = 1;
     if (s->mesh_entries && !s->has_mesh)
-        result = set_mesh(figure, &s->mesh, MASK_MESH, &s->has_mesh, &s->mesh_geometry);
+        result = set_mesh(figure, &s->mesh, is_layer ? MASK_MESH : 0, &s->has_mesh, &s->mesh_geometry);
     if (!result && s->floor.triangles.count && !s->has_floor)
         result = set_triangles(figure, &s->floor.triangles, &s->has_floor, &s->floor_geometry);
     if (!result)

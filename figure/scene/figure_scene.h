@@ -25,8 +25,8 @@ enum {
 
 enum { FIGURE_LOOKS = 5 };
 
-/* Bits of masks: the mesh that stands among the spheres has a bit of its own, and they have all. */
-enum { MASK_ALL_BUT_MESH = 1, MASK_MESH = 2 };
+/* Bits of masks: a mesh that is seen through has a bit of its own. */
+enum { MASK_OPAQUE = 1, MASK_MESH = 2 };
 
 /* What is drawn of a frame, in arrays of its own: made by the thread that reads, while the frame's columns are
  * there. */

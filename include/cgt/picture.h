@@ -89,7 +89,12 @@ CGT_API cgt_result cgt_find_bodies(const uint32_t *indices, uint32_t count, cons
 
 /* ---- How a picture is made ---------------------------------------------------------------------------------- */
 
-enum { CGT_PICTURE_MAX_LIGHTS = 8, CGT_PICTURE_MAX_RAYS = 256, CGT_PICTURE_MAX_BOUNCES = 64 };
+enum {
+    CGT_PICTURE_MAX_LIGHTS = 8,
+    CGT_PICTURE_MAX_LAYERS = 8,
+    CGT_PICTURE_MAX_RAYS = 256,
+    CGT_PICTURE_MAX_BOUNCES = 64
+};
 
 typedef enum cgt_shading {
     /* One directional light without shadows, lights[0], whose direction alone counts, at 0.85; a headlight at 0.35;
@@ -126,6 +131,14 @@ typedef struct cgt_picture_lighting {
     uint32_t light_samples;
 } cgt_picture_lighting;
 
+/* Geometries that are seen through: a skin, of which the eye sees the nearest side alone, however many surfaces of it lie
+ * behind that. */
+typedef struct cgt_picture_layer {
+    uint32_t
+        mask; /* geometries whose mask has one of these bits are in the layer; those of no layer have none of them */
+    float opacity; /* how much of what is behind it covers; 0 (default): 1 */
+} cgt_picture_layer;
+
 /* What is drawn besides light on surfaces. */
 typedef struct cgt_picture_style {
     float background[3];
@@ -134,10 +147,11 @@ typedef struct cgt_picture_style {
     float cue_range[2]; /* depths along the camera's axis between which that grows; the first below the second */
     float outline;      /* width of outlines in pixels; 0 (default): none */
     float outline_color[3];
-    /* Opacity of the geometries that behind_mask hides; 0 (default): 1. Else each picture is made without them, too,
-     * and mixed, so that what is behind their nearest side shines through. */
-    float front;
-    uint32_t behind_mask; /* mask of the camera that draws what is behind them */
+    /* What is transparent, at most CGT_PICTURE_MAX_LAYERS; 0 (default): nothing. Each is traced by itself, and mixed
+     * with what is behind it, ray by ray and in linear light. Layers cast no shadows and occlude nothing, but get the
+     * shadows of what is opaque. */
+    uint32_t layer_count;
+    cgt_picture_layer layers[CGT_PICTURE_MAX_LAYERS];
 } cgt_picture_style;
 
 /* CGT_SHADING_BOUNCES. Surfaces of glass and mirrors see a sky whose horizon is the background, which turns bluish and
@@ -182,7 +196,7 @@ typedef struct cgt_linear_pixel {
     float r, g, b;
     float depth; /* of the nearest of the pixel's hits, along the camera's axis; +infinity: none */
     uint32_t id; /* of that hit's primitive: see cgt_look.ids; CGT_INVALID_ID: none */
-    float a;     /* opacity: the share of the pixel's rays with a hit */
+    float a;     /* opacity: the share of the pixel's rays with a hit; of layers their opacity counts */
 } cgt_linear_pixel;
 
 /* Where pixels go: the caller's memory, first row at the top. */
@@ -210,7 +224,7 @@ typedef struct cgt_picture cgt_picture;
  * Memory:  the C library's. PLAIN: 10 KB. BOUNCES: 20 bytes a ray, and 3.3 MB + 1.4 MB * (bounces + 1) for each thread
  *          while it traces. Else 24 bytes a ray (a pixel has antialias * antialias), 8 more from the first
  *          picture with triangles, 4 with ambient occlusion, 8 after two steps of it, 1 for each hard light with
- *          shadows, 4 for each soft one, all twice with `front`; during a step with soft lights 600 bytes for each ray
+ *          shadows, 4 for each soft one, all of it again for each layer; during a step with soft lights 600 bytes for each ray
  *          of a row, times its samples
  * Threads: one at a time uses a picture; several pictures may be made of one scene at once
  * Errors:  INVALID_ARGUMENT, OUT_OF_MEMORY, TOO_LARGE */

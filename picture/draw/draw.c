@@ -215,6 +215,11 @@ cgt_result cgt_draw_trace(drawing *d, const cgt_scene *scene, const cgt_trace_op
     const cgt_result result = cgt_trace_camera(scene, &d->camera, &frame, options);
     if (result != CGT_OK)
         return result;
+    if (d->behind) {
+        const cgt_result hidden = cgt_draw_hide_layer(d);
+        if (hidden != CGT_OK)
+            return hidden;
+    }
     return draw_is_stopped(d) ? CGT_ERROR_STOPPED : cgt_draw_trace_hard_lights(d, scene);
 }
 

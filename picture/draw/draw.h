@@ -15,7 +15,8 @@
 #include "color/srgb.h"
 #include "draw/look.h"
 
-typedef struct drawing {
+typedef struct drawing drawing;
+struct drawing {
     const cgt_picture_options *options; /* with the defaults in place of zeros, directions of unit length */
     const srgb_table *srgb;
     cgt_context *context;      /* whose threads shade */
@@ -41,7 +42,12 @@ typedef struct drawing {
     float *reach_plane[CGT_PICTURE_MAX_LIGHTS];   /* these two are planes, those NULL before the first step */
     uint8_t *occluded[CGT_PICTURE_MAX_LIGHTS];    /* of a hard light: 1 where it does not arrive; NULL: it does */
     float right[3], up[3], forward[3], origin[3]; /* of the camera: ray = origin or forward, plus shares of right, up */
-} drawing;
+    /* What is transparent has planes of its own, where it is nearer than what is opaque; else its rays hit nothing. */
+    drawing *layer; /* of the opaque one */
+    uint32_t layers;
+    const drawing *behind; /* of a layer: the opaque one */
+    uint32_t light_mask;   /* of rays to lights and the sky: what casts shadows */
+};
 
 /* Makes the planes; options and srgb are set, context before it shades, the rest is zero. Returns 0, or -1 where memory
  * is missing. */
@@ -64,9 +70,6 @@ cgt_result cgt_draw_shade(drawing *d);
 
 /* The same without planes. */
 cgt_result cgt_draw_tiles(drawing *d, const cgt_scene *scene, const cgt_trace_options *options);
-
-/* The same of something transparent in front and of what lies behind it (draw_layers.c): the pixels of front->image. */
-cgt_result cgt_draw_layers(drawing *front, drawing *behind);
 
 /* A camera's unit vectors to the right and up, scaled to half a picture, and along its axis. */
 void cgt_draw_half_picture(const cgt_camera *camera, float aspect, float right[3], float up[3], float forward[3]);
@@ -96,6 +99,23 @@ typedef struct draw_means {
     float mean[DRAW_SMOOTHED][DRAW_BLOCK];
 } draw_means;
 void cgt_draw_smooth(const drawing *d, uint32_t x, uint32_t y, uint32_t count, draw_means *means);
+
+/* draw_layers.c: of a layer, drops the hits that lie behind what is opaque. */
+cgt_result cgt_draw_hide_layer(drawing *d);
+
+/* What the eye gets along a ray. */
+typedef struct draw_ray_light {
+    float color[3], cover; /* how much of the background that covers, by which the colour is multiplied */
+    float depth;           /* of the nearest hit, +infinity: none; id: what it is on */
+    uint32_t id;
+} draw_ray_light;
+
+/* The same: lays the layers over what is opaque along `count` rays of a row, from (x, y) on, at most DRAW_BLOCK. */
+void cgt_draw_mix_layers(const drawing *d, uint32_t x, uint32_t y, uint32_t count, draw_ray_light *light);
+
+/* draw_shade.c: shades ray (x + i, y), which has a hit; means: of the rays from x on. */
+void cgt_draw_shade_ray(const drawing *d, uint32_t x, uint32_t y, const draw_means *means, uint32_t i,
+                        draw_ray_light *light);
 
 /* draw_tiles.c: the fields of a tile that the visitor reads, whose user is the drawing. */
 uint32_t cgt_draw_tile_fields(const drawing *d);

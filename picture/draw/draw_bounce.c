@@ -105,6 +105,7 @@ uint32_t cgt_draw_bounced_row(const drawing *d, uint32_t y)
                 sum.hits[c] += is_hit ? d->light[ray][c] : 0.0f;
             }
             sum.count += (uint32_t)is_hit;
+            sum.cover += (float)is_hit;
             if (d->t[ray] < sum.depth) {
                 sum.depth = d->t[ray];
                 sum.id = d->primitive[ray];

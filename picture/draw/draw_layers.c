@@ -1,60 +1,70 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Something transparent in front, such as a mesh among spheres: a picture is made without it, then with it, and the two
- * are mixed, so that what lies behind its nearest side shines through. It casts no shadows on what is seen through
- * it. */
-#include <stdlib.h>
+ * What is seen through: each layer is a frame of its own, whose hits lie in front of what is opaque. A ray's light is that
+ * of the layers it goes through and of what is behind them, from the farthest to the nearest (Porter, Duff, "Compositing
+ * Digital Images", SIGGRAPH 1984: each over what is behind it). */
+#include <math.h>
+#include <string.h>
 
-#include "color/srgb.h"
-#include "draw/draw_store.h"
+#include "draw/draw.h"
 
-/* Mixes the picture with the one behind; depth and primitive stay those in front. */
-static void mix(const drawing *d, const cgt_image *from)
+/* A row of rays. */
+static void hide_row(void *argument, uint32_t index)
 {
-    const float share = d->options->style.front;
-    const uint32_t width = d->options->width;
-    const size_t first = (size_t)d->options->work.first_row * width, count = (size_t)d->options->work.row_count * width;
-    for (size_t i = first; i < first + count; i++) {
-        uint8_t *const bytes = d->image.bytes ? draw_bytes(d, (uint32_t)(i % width), (uint32_t)(i / width)) : NULL;
-        uint8_t *const alpha = d->image.alpha ? &d->image.alpha[i] : bytes && d->image.channels == 4 ? bytes + 3 : NULL;
-        const uint8_t *const from_bytes = from->bytes + 4 * i;
-        const float front = alpha ? share * (float)*alpha : share,
-                    back = (1.0f - share) * (alpha ? (float)from_bytes[3] : 1.0f);
-        for (int c = 0; c < 3 && bytes && front + back > 0.0f; c++) {
-            const float ours = cgt_srgb_decode(bytes[c]), theirs = cgt_srgb_decode(from_bytes[c]);
-            bytes[c] = srgb_encode(d->srgb, (front * ours + back * theirs) / (front + back));
-        }
-        if (alpha)
-            *alpha = (uint8_t)(front + back + 0.5f);
-        if (alpha && bytes && d->image.channels == 4)
-            bytes[3] = *alpha;
-        if (d->image.linear) {
-            cgt_linear_pixel *p = &d->image.linear[i];
-            p->r = share * p->r + (1.0f - share) * from->linear[i].r;
-            p->g = share * p->g + (1.0f - share) * from->linear[i].g;
-            p->b = share * p->b + (1.0f - share) * from->linear[i].b;
-            p->a = share * p->a + (1.0f - share) * from->linear[i].a;
-        }
+    drawing *const d = argument;
+    const size_t first = (size_t)(d->first_ray_row + index) * d->ray_width;
+    for (size_t k = first; k < first + d->ray_width; k++) {
+        if (d->primitive[k] == CGT_INVALID_ID || d->t[k] < d->behind->t[k])
+            continue;
+        d->t[k] = INFINITY;
+        d->primitive[k] = d->geometry[k] = CGT_INVALID_ID;
     }
 }
 
-cgt_result cgt_draw_layers(drawing *front, drawing *behind)
+cgt_result cgt_draw_hide_layer(drawing *d) { return cgt_context_run_tasks(d->context, hide_row, d, d->ray_rows); }
+
+/* Puts a ray's layer before those that are farther off. */
+static void insert(uint8_t order[CGT_PICTURE_MAX_LAYERS], uint32_t count, uint8_t layer, const float *depth)
 {
-    const size_t pixels = (size_t)front->options->width * front->options->height;
-    const size_t linear = front->image.linear ? pixels * sizeof *front->image.linear : 0;
-    char *const memory = malloc(linear + 4 * pixels);
-    if (!memory)
-        return CGT_ERROR_OUT_OF_MEMORY;
-    behind->image = (cgt_image){.bytes = (uint8_t *)memory + linear,
-                                .channels = 4,
-                                .row_stride = (size_t)4 * front->options->width,
-                                .linear = linear ? (cgt_linear_pixel *)(void *)memory : NULL};
-    cgt_result result = cgt_draw_shade(behind);
-    if (result == CGT_OK)
-        result = cgt_draw_shade(front);
-    if (result == CGT_OK)
-        mix(front, &behind->image);
-    free(memory);
-    return result;
+    uint32_t at = count;
+    for (; at > 0 && depth[order[at - 1]] > depth[layer]; at--)
+        order[at] = order[at - 1];
+    order[at] = layer;
+}
+
+/* Lays a layer over what is behind it. */
+static void lay_over(draw_ray_light *light, const draw_ray_light *layer, float opacity)
+{
+    for (int c = 0; c < 3; c++)
+        light->color[c] = opacity * layer->color[c] + (1.0f - opacity) * light->color[c];
+    light->cover = opacity + (1.0f - opacity) * light->cover;
+    light->depth = layer->depth;
+    light->id = layer->id;
+}
+
+void cgt_draw_mix_layers(const drawing *d, uint32_t x, uint32_t y, uint32_t count, draw_ray_light *light)
+{
+    const cgt_picture_layer *const style = d->options->style.layers;
+    draw_ray_light of[CGT_PICTURE_MAX_LAYERS][DRAW_BLOCK];
+    const size_t first = (size_t)y * d->ray_width + x;
+    draw_means means;
+    for (uint32_t l = 0; l < d->layers; l++) {
+        cgt_draw_smooth(&d->layer[l], x, y, count, &means);
+        for (uint32_t i = 0; i < count; i++)
+            if (d->layer[l].primitive[first + i] != CGT_INVALID_ID)
+                cgt_draw_shade_ray(&d->layer[l], x, y, &means, i, &of[l][i]);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        uint8_t order[CGT_PICTURE_MAX_LAYERS];
+        float depth[CGT_PICTURE_MAX_LAYERS];
+        uint32_t hits = 0;
+        for (uint32_t l = 0; l < d->layers; l++) {
+            depth[l] = d->layer[l].t[first + i];
+            if (d->layer[l].primitive[first + i] != CGT_INVALID_ID)
+                insert(order, hits++, (uint8_t)l, depth);
+        }
+        while (hits-- > 0)
+            lay_over(&light[i], &of[order[hits]][i], style[order[hits]].opacity);
+    }
 }

@@ -50,6 +50,14 @@ static cgt_visit watch_sky(void *user, uint32_t x, uint32_t y, uint32_t width, u
     return draw_is_stopped(user) ? CGT_VISIT_STOP : CGT_VISIT_CONTINUE;
 }
 
+/* The camera of the frame, with the mask of what casts shadows. */
+static cgt_camera light_camera(const drawing *d)
+{
+    cgt_camera camera = d->camera;
+    camera.mask = d->light_mask;
+    return camera;
+}
+
 cgt_result cgt_draw_trace_sky(drawing *d, const cgt_scene *scene, uint32_t samples)
 {
     const cgt_frame frame = cgt_draw_frame(d);
@@ -73,7 +81,8 @@ cgt_result cgt_draw_trace_sky(drawing *d, const cgt_scene *scene, uint32_t sampl
         ambient.visitor_user = &step;
     }
     d->sky = d->sky_plane;
-    return cgt_ambient_occlusion(scene, &d->camera, &frame, &ambient, d->samples ? d->more_sky : d->sky_plane, NULL);
+    const cgt_camera camera = light_camera(d);
+    return cgt_ambient_occlusion(scene, &camera, &frame, &ambient, d->samples ? d->more_sky : d->sky_plane, NULL);
 }
 
 /* ---- Hard shadows ------------------------------------------------------------------------------------------- */
@@ -89,7 +98,8 @@ cgt_result cgt_draw_trace_hard_lights(drawing *d, const cgt_scene *scene)
             occluded = count ? occluded : d->occluded[i];
             lights[count++] = d->options->lighting.lights[i].light;
         }
-    return count ? cgt_occluded_frame(scene, &d->camera, &frame, lights, count, NULL, occluded, NULL) : CGT_OK;
+    const cgt_camera camera = light_camera(d);
+    return count ? cgt_occluded_frame(scene, &camera, &frame, lights, count, NULL, occluded, NULL) : CGT_OK;
 }
 
 /* ---- Soft shadows ------------------------------------------------------------------------------------------- */
@@ -137,7 +147,7 @@ typedef struct light_rays {
     uint32_t run;            /* points of a run: of all steps */
     float (*disc)[2];        /* 16 runs */
     float *org[3], *dir[3], *t_max;
-    uint32_t *primitive, *geometry;
+    uint32_t *primitive, *geometry, *mask; /* mask: NULL where all cast shadows */
     uint8_t *occluded;
     uint32_t *ray; /* of each hit in the strip: its place in the planes, less that of the strip */
     uint32_t hits;
@@ -148,7 +158,8 @@ static int light_rays_init(light_rays *r, const drawing *d, const cgt_picture_li
 {
     const uint32_t run = d->light_samples;
     const size_t hits = (size_t)d->ray_width * ROWS, rays = hits * samples; /* at most 2^20 * 2^8 */
-    float *at = malloc((rays * 9 + hits + 32 * (size_t)run) * sizeof(float) + rays);
+    const size_t masks = d->light_mask ? rays : 0;
+    float *at = malloc((rays * 9 + masks + hits + 32 * (size_t)run) * sizeof(float) + rays);
     r->light = light;
     r->first = d->samples;
     r->samples = samples;
@@ -163,9 +174,13 @@ static int light_rays_init(light_rays *r, const drawing *d, const cgt_picture_li
     r->t_max = at;
     r->primitive = (uint32_t *)(void *)(at + rays);
     r->geometry = (uint32_t *)(void *)(at + 2 * rays);
-    r->ray = (uint32_t *)(void *)(at + 3 * rays);
-    r->disc = (float(*)[2])(void *)(at + 3 * rays + hits);
-    r->occluded = (uint8_t *)(at + 3 * rays + hits + 32 * (size_t)run);
+    r->mask = masks ? (uint32_t *)(void *)(at + 3 * rays) : NULL;
+    at += 3 * rays + masks;
+    r->ray = (uint32_t *)(void *)at;
+    r->disc = (float(*)[2])(void *)(at + hits);
+    r->occluded = (uint8_t *)(at + hits + 32 * (size_t)run);
+    for (size_t i = 0; i < masks; i++)
+        r->mask[i] = d->light_mask;
     for (uint32_t i = 0; i < 16 * run; i++) {
         sobol(i, r->disc[i]);
         to_disc(r->disc[i]);
@@ -251,6 +266,7 @@ static cgt_result trace_strip(drawing *d, const cgt_scene *scene, light_rays *r,
                            .org = {r->org[0], r->org[1], r->org[2]},
                            .dir = {r->dir[0], r->dir[1], r->dir[2]},
                            .t_max = r->t_max,
+                           .mask = r->mask,
                            .skip_primitive = r->primitive,
                            .skip_geometry = r->geometry};
     const cgt_result result = rays.count ? cgt_occluded_rays(scene, &rays, r->occluded, NULL) : CGT_OK;

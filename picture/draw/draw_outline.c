@@ -15,8 +15,8 @@ static const float rim_rays = 6.0f;       /* a step in depth of so many rays' wi
 /* How dark the line is because of the neighbour k. */
 static float line_between(const drawing *d, size_t center, size_t k, float step)
 {
-    if (d->primitive[k] == CGT_INVALID_ID)
-        return 1.0f;
+    if (d->primitive[k] == CGT_INVALID_ID) /* of a layer: what is opaque may hide that it goes on */
+        return d->behind && d->behind->t[k] < d->t[center] ? 0.0f : 1.0f;
     if (d->primitive[k] == d->primitive[center] && d->geometry[k] == d->geometry[center])
         return 0.0f;
     /* Where the surface goes on in its own plane, only the normals tell; a step behind it is a rim. */

@@ -84,18 +84,28 @@ static void shade_hit(const drawing *d, const ray_place *at, float out[3])
 
 /* ---- A row -------------------------------------------------------------------------------------------------- */
 
-static void add_hit(const drawing *d, const ray_place *at, pixel_sum *sum)
+void cgt_draw_shade_ray(const drawing *d, uint32_t x, uint32_t y, const draw_means *means, uint32_t i,
+                        draw_ray_light *light)
 {
-    const size_t k = (size_t)at->y * d->ray_width + at->x;
-    float color[3];
-    shade_hit(d, at, color);
+    ray_place at = {.x = x + i, .y = y, .means = means, .i = i};
+    const size_t k = (size_t)y * d->ray_width + at.x;
+    const uint32_t *ids = draw_look(d, d->geometry[k])->of.ids;
+    draw_ray(d, at.x, at.y, at.org, at.dir);
+    shade_hit(d, &at, light->color);
+    light->cover = 1.0f;
+    light->depth = d->t[k];
+    light->id = ids ? ids[d->primitive[k]] : d->primitive[k];
+}
+
+static void add_ray(const draw_ray_light *light, pixel_sum *sum)
+{
     for (int c = 0; c < 3; c++)
-        sum->hits[c] += color[c];
+        sum->hits[c] += light->color[c];
     sum->count++;
-    if (d->t[k] < sum->depth) {
-        const uint32_t *ids = draw_look(d, d->geometry[k])->of.ids;
-        sum->depth = d->t[k];
-        sum->id = ids ? ids[d->primitive[k]] : d->primitive[k];
+    sum->cover += light->cover;
+    if (light->depth < sum->depth) {
+        sum->depth = light->depth;
+        sum->id = light->id;
     }
 }
 
@@ -108,32 +118,47 @@ static void add_rays(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels
         sum[i] = (pixel_sum){.depth = INFINITY, .id = CGT_INVALID_ID};
     for (uint32_t y = py * n; y < (py + 1) * n; y++) {
         const uint32_t *primitive = d->primitive + (size_t)y * d->ray_width + (size_t)px * n;
+        draw_ray_light light[DRAW_BLOCK];
         cgt_draw_smooth(d, px * n, y, pixels * n, &means);
         for (uint32_t i = 0; i < pixels * n; i++)
-            if (primitive[i] != CGT_INVALID_ID) {
-                ray_place at = {.x = px * n + i, .y = y, .means = &means, .i = i};
-                draw_ray(d, at.x, at.y, at.org, at.dir);
-                add_hit(d, &at, &sum[i / n]);
-            }
+            if (primitive[i] != CGT_INVALID_ID)
+                cgt_draw_shade_ray(d, px * n, y, &means, i, &light[i]);
+            else
+                light[i] = (draw_ray_light){.depth = INFINITY, .id = CGT_INVALID_ID};
+        if (d->layers)
+            cgt_draw_mix_layers(d, px * n, y, pixels * n, light);
+        for (uint32_t i = 0; i < pixels * n; i++)
+            if (light[i].cover > 0.0f)
+                add_ray(&light[i], &sum[i / n]);
     }
+}
+
+/* Whether no ray of some pixels of a row hits anything. */
+static int is_background(const drawing *d, uint32_t x, uint32_t y, uint32_t pixels)
+{
+    const uint32_t n = d->options->antialias;
+    const size_t first = (size_t)y * n * d->ray_width + (size_t)x * n;
+    int is_empty = draw_is_background(d->primitive + first, d->ray_width, pixels * n, n);
+    for (uint32_t l = 0; l < d->layers && is_empty; l++)
+        is_empty = draw_is_background(d->layer[l].primitive + first, d->ray_width, pixels * n, n);
+    return is_empty;
 }
 
 static void add_background(const drawing *d, pixel_sum *sum)
 {
     const uint32_t n = d->options->antialias;
     for (int c = 0; c < 3; c++)
-        sum->all[c] = sum->hits[c] + ((float)(n * n) - (float)sum->count) * d->options->style.background[c];
+        sum->all[c] = sum->hits[c] + ((float)(n * n) - sum->cover) * d->options->style.background[c];
 }
 
 uint32_t cgt_draw_shade_row(const drawing *d, uint32_t y)
 {
-    const uint32_t width = d->options->width, n = d->options->antialias;
+    const uint32_t width = d->options->width;
     pixel_sum sums[RUN];
     uint32_t hits = 0;
     for (uint32_t x = 0; x < width; x += RUN) {
         const uint32_t pixels = width - x < RUN ? width - x : RUN;
-        if (draw_is_background(d->primitive + (size_t)y * n * d->ray_width + (size_t)x * n, d->ray_width, pixels * n,
-                               n)) {
+        if (is_background(d, x, y, pixels)) {
             draw_fill_background(d, x, y, pixels);
             continue;
         }

@@ -15,7 +15,8 @@
 /* The rays of a pixel. */
 typedef struct pixel_sum {
     float all[3], hits[3]; /* light of all rays, of those with a hit */
-    uint32_t count;        /* of those with a hit */
+    uint32_t count;        /* of those with a hit, */
+    float cover;           /* and how much they cover, at most as much */
     float depth;           /* of the nearest hit, and what it is on */
     uint32_t id;
 } pixel_sum;
@@ -28,15 +29,15 @@ static inline uint8_t *draw_bytes(const drawing *d, uint32_t x, uint32_t y)
 static inline void draw_store(const drawing *d, const pixel_sum *sum, uint32_t x, uint32_t y)
 {
     const srgb_table *srgb = d->srgb;
-    const float share = d->share, count = (float)sum->count;
+    const float share = d->share, cover = sum->cover;
     /* Alpha is not premultiplied: the colour of a transparent pixel is that of its hits. */
     const int shows_hits = d->options->style.transparent && sum->count;
-    const uint8_t alpha = d->options->style.transparent ? (uint8_t)(255.0f * count * share + 0.5f) : 255;
+    const uint8_t alpha = d->options->style.transparent ? (uint8_t)(255.0f * cover * share + 0.5f) : 255;
     const size_t pixel = (size_t)y * d->options->width + x;
     float color[3], shown[3];
     for (int c = 0; c < 3; c++) {
         color[c] = sum->all[c] * share;
-        shown[c] = shows_hits ? sum->hits[c] / count : color[c];
+        shown[c] = shows_hits ? sum->hits[c] / cover : color[c];
     }
     if (d->image.bytes) {
         uint8_t *const bytes = draw_bytes(d, x, y);
@@ -56,7 +57,7 @@ static inline void draw_store(const drawing *d, const pixel_sum *sum, uint32_t x
     to->r = sum->hits[0] * share; /* linear values are premultiplied */
     to->g = sum->hits[1] * share;
     to->b = sum->hits[2] * share;
-    to->a = count * share;
+    to->a = cover * share;
 }
 
 /* Whether no ray of some pixels hits anything: of `width` rays in each of `height` rows, `stride` apart. CGT_INVALID_ID

@@ -132,8 +132,8 @@ class Picture(Plain):
         Width of outlines in pixels; outline_color is theirs.
     cue : (share, near, far), optional
         Depth cue: how much of the colours at depth `far` becomes the background's, from `near` on.
-    front : (opacity, mask), optional
-        Geometries that a camera with this mask does not see are transparent so far.
+    layers : sequence of (mask, opacity), optional
+        Geometries whose mask has one of these bits are seen through; those of no layer have none of them. At most 8.
     materials : sequence of Material, optional
         Of shading 'bounces', with at most so many `bounces`, and `up`, where its sky is bluest.
     shadow_mask, glass_mask : int, optional
@@ -180,7 +180,7 @@ class Picture(Plain):
                  head: float = 0.0, ambient: int = 0, ambient_radius: float = 0.0, light_samples: int = 0,
                  background: Any = (1, 1, 1), transparent: bool = False, outline: float = 0.0,
                  outline_color: Any = (0, 0, 0), cue: Sequence[float] = (0, 0, 0),
-                 front: Tuple[float, int] = (1, 0), materials: Sequence[Material] = (), bounces: int = 8,
+                 layers: Sequence[Tuple[int, float]] = (), materials: Sequence[Material] = (), bounces: int = 8,
                  up: Sequence[float] = (0, 1, 0), shadow_mask: int = 0, glass_mask: int = 0,
                  rows: Tuple[int, int] = (0, 0), linear: bool = False):
         if self._options is not None:
@@ -199,8 +199,12 @@ class Picture(Plain):
         lighting.ambient_radius = real("ambient_radius", ambient_radius)
         o.shading = enum_value("CGT_SHADING_", shading, "shading", lib)
         style.cue, style.cue_range[0], style.cue_range[1] = three("cue", cue)
-        opacity, mask = pair("front", front)
-        style.front, style.behind_mask = real("front", opacity), whole("front", mask)
+        pairs = [pair("layers", layer) for layer in layers]
+        if len(pairs) > lib.CGT_PICTURE_MAX_LAYERS:
+            raise InvalidArgument(f"layers: {len(pairs)}: at most {lib.CGT_PICTURE_MAX_LAYERS}")
+        style.layer_count = len(pairs)
+        for c, (mask, opacity) in zip(style.layers, pairs):
+            c.mask, c.opacity = whole("layers", mask), real("layers", opacity)
         style.outline, style.outline_color = real("outline", outline), light_of("outline_color", outline_color).tolist()
         style.background, style.transparent = light_of("background", background).tolist(), bool(transparent)
         bounced.up = three("up", up)

@@ -93,7 +93,7 @@ def parts():
         except ImportError:
             continue
         if name == "picture":
-            places = {name: [module.Picture] for name in ("options", "light", "lighting", "style", "bounces", "work")}
+            places = {name: [module.Picture] for name in ("options", "light", "lighting", "layer", "style", "bounces", "work")}
             more = {"cgt_look": [module.Look], "cgt_material": [module.Material], "cgt_image": [module.Picture],
                     "cgt_linear_pixel": [module.Picture]}
         elif name == "mpi":

@@ -102,7 +102,7 @@ CALLS = {  # each with what is no number of its arguments, and its arguments
         "palette_steps": (WHOLE, 2), "lineless_from": (WHOLE, 2), "vertex_normals": (FLOATS, X)}),
     cgt.Material: ({"kind", "color", "linear"}, {
         "index": (NUMBER, 1.5), "absorption": (THREE, abs(X[0])), "priority": (WHOLE, 1), "gloss": (NUMBER, 3.0)}),
-    cgt.Picture: ({"shading", "lights", "background", "transparent", "outline_color", "cue", "front", "materials",
+    cgt.Picture: ({"shading", "lights", "background", "transparent", "outline_color", "cue", "layers", "materials",
                    "rows", "linear"}, {
         **{name: (WHOLE, 4) for name in ("width", "height", "antialias", "ambient", "light_samples", "bounces")},
         **{name: (WHOLE, 4) for name in ("shadow_mask", "glass_mask")}, "up": (THREE, X[0]),

@@ -174,11 +174,14 @@ def test_rows_and_linear_pixels():
         cgt.Picture(40, 31, rows=(31, 1)).draw(scene, CAMERA, looks)
     fog = cgt.Picture(40, 31, ambient=4, cue=(1, 0, 1), background=(1, 1, 1)).draw(scene, CAMERA, looks)
     assert (fog.pixels == 255).all()  # everything lies behind depth 1
-    ghost = cgt.Picture(40, 31, ambient=4, front=(0.25, 2), background=(1, 1, 1))
+    ghost = cgt.Picture(40, 31, ambient=4, layers=[(2, 0.25)], background=(1, 1, 1))
     masked = cgt.Scene()
-    ball = masked.add(cgt.Spheres(np.zeros((1, 3), "f4"), 1.0, mask=1))
+    ball = masked.add(cgt.Spheres(np.zeros((1, 3), "f4"), 1.0, mask=2))
     masked.commit()
     assert (ghost.draw(masked, CAMERA, looks).pixels.astype(int) - whole.pixels)[hit].min() > 0
+    for wrong in ([(0, 0.5)], [(2, 0.5), (6, 0.5)], [(2, 2.0)], [(1 << k, 0.5) for k in range(9)]):
+        with pytest.raises(cgt.InvalidArgument, match="layer"):
+            cgt.Picture(8, 8, layers=wrong).draw(masked, CAMERA, looks)
 
 
 def test_halves_of_capsules():

@@ -18,6 +18,7 @@ enum { EDGE = 64, PIXELS = EDGE * EDGE, BALL = 0, FLOOR = 1 };
 /* The camera looks down from (0, 0, 20) on the floor z = 0, 16 units wide; x to the right, y up. */
 typedef struct stage {
     float ball[2][4]; /* radius 1 at (0, 0, 2), and one that a test may place */
+    float wall[2][9];
     cgt_context *context;
     cgt_scene *scene;
     cgt_picture *picture;
@@ -53,8 +54,29 @@ static void set_up(stage *s, uint32_t threads, const char *variant)
     assert_int_equal(cgt_scene_set_triangles(s->scene, NULL, &triangles), CGT_OK);
 }
 
-static const cgt_look looks[2] = {{.index = first_entry, .palette = palette},
-                                  {.index = first_entry, .palette = palette}};
+/* Of ball, floor, and walls that a test adds. */
+static const cgt_look looks[4] = {{.index = first_entry, .palette = palette},
+                                  {.index = first_entry, .palette = palette},
+                                  {.color = {0.8f, 0.1f, 0.1f}},
+                                  {.color = {0.1f, 0.1f, 0.8f}}};
+
+/* Two layers of a wall each at these heights, of opacity 1/4 and 1/2, which fill the picture. */
+static void add_walls(stage *s, float one, float other)
+{
+    static const uint16_t index[3] = {0, 1, 2};
+    for (uint32_t k = 0; k < 2; k++) {
+        const float z = k ? other : one, corner[9] = {-40.0f, -20.0f, z, 40.0f, -20.0f, z, 0.0f, 60.0f, z};
+        memcpy(s->wall[k], corner, sizeof corner);
+        const cgt_triangles wall = {.count = 1,
+                                    .indices = cgt_uint16s(index, 0),
+                                    .vertex_count = 3,
+                                    .vertices = cgt_floats(s->wall[k], 0),
+                                    .mask = 2u << k};
+        assert_int_equal(cgt_scene_set_triangles(s->scene, NULL, &wall), CGT_OK);
+        s->settings.style.layers[k] = (cgt_picture_layer){2u << k, k ? 0.5f : 0.25f};
+    }
+    s->settings.style.layer_count = 2;
+}
 
 static void set_camera(cgt_camera *camera)
 {
@@ -74,7 +96,7 @@ static cgt_result make(stage *s)
     assert_int_equal(cgt_scene_commit(s->scene), CGT_OK);
     cgt_picture_release(s->picture);
     assert_int_equal(cgt_picture_create(s->context, &s->settings, &s->picture), CGT_OK);
-    return cgt_picture_draw(s->picture, s->scene, &camera, looks, 2, &image, NULL);
+    return cgt_picture_draw(s->picture, s->scene, &camera, looks, 4, &image, NULL);
 }
 
 static void draw(stage *s) { assert_int_equal(make(s), CGT_OK); }
@@ -295,6 +317,7 @@ TEST(threads_and_variants_change_no_byte)
             cgt_context_release(context);
             set_up(&s, threads, *name);
             set_everything(&s);
+            add_walls(&s, 1.0f, 4.0f);
             draw(&s);
             if (name == cgt_get_variant_names() && threads == 1) {
                 memcpy(expected, s.rgb, sizeof expected);
@@ -476,8 +499,8 @@ TEST(rows_have_the_bytes_of_the_whole)
         set_everything(&s);
         s.settings.antialias = 1u << k % 3;
         s.settings.style.outline = k == 2 ? 1.6f : s.settings.style.outline;
-        s.settings.style.front = k == 1 ? 0.4f : 1.0f;
-        s.settings.style.behind_mask = 1;
+        if (k == 1)
+            add_walls(&s, 2.0f, 4.0f);
         s.settings.shading = k == 3 ? CGT_SHADING_PLAIN : CGT_SHADING_FULL;
         s.settings.style.transparent = k == 4;
         s.settings.lighting.light_count = k == 3 ? 0 : s.settings.lighting.light_count;
@@ -571,24 +594,91 @@ TEST(images_of_all_kinds_agree)
     }
 }
 
-/* A mesh in front of opacity 1/4 mixes with what is behind it, in linear light. */
-TEST(what_is_in_front_lets_through)
+/* Ray light through the layers: the nearest first. */
+static float mixed(float near_color, float near_opacity, float far_color, float far_opacity, float behind)
+{
+    return near_opacity * near_color +
+           (1.0f - near_opacity) * (far_opacity * far_color + (1.0f - far_opacity) * behind);
+}
+
+TEST(layers_are_mixed_by_depth)
+{
+    static stage s;
+    const cgt_linear_pixel *const p = &s.pixels[at(6.1f, 4.1f)]; /* not where the floor's triangles meet */
+    for (int soft = 0; soft < 2; soft++) {
+        set_up(&s, 2, NULL);
+        add_walls(&s, 4.0f, 8.0f);
+        s.settings.lighting.lights[0].shadows = 1; /* which no layer casts */
+        s.settings.lighting.lights[0].size = soft ? 5.0f : 0.0f;
+        s.settings.lighting.ambient = 4;
+        draw(&s); /* the floor is 0.5, 0.25, 0.125 */
+        assert_near(p->r, mixed(0.1f, 0.5f, 0.8f, 0.25f, 0.5f), 1e-6);
+        assert_near(p->b, mixed(0.8f, 0.5f, 0.1f, 0.25f, 0.125f), 1e-6);
+        assert_near(p->depth, 12.0, 1e-4);
+        assert_near(s.rgb[3 * at(6.1f, 4.1f)], 255.0 * cgt_srgb_from_linear(p->r), 1.0);
+        assert_int_equal(cgt_picture_get_hits(s.picture), PIXELS);
+        tear_down(&s);
+    }
+    set_up(&s, 2, NULL);
+    add_walls(&s, 8.0f, 4.0f);
+    draw(&s);
+    assert_near(p->r, mixed(0.8f, 0.25f, 0.1f, 0.5f, 0.5f), 1e-6);
+    tear_down(&s);
+    set_up(&s, 2, NULL);
+    add_walls(&s, 8.0f, -1.0f); /* one is below the floor */
+    draw(&s);
+    assert_near(p->r, 0.25 * 0.8 + 0.75 * 0.5, 1e-6);
+    const cgt_triangles none = {.count = 0};
+    assert_int_equal(cgt_scene_set_triangles(s.scene, &(uint32_t){FLOOR}, &none), CGT_OK);
+    s.settings.style.transparent = true;
+    draw(&s);
+    assert_near(p->a, mixed(1.0f, 0.25f, 1.0f, 0.5f, 0.0f), 1e-6);
+    assert_near(p->r, mixed(0.8f, 0.25f, 0.1f, 0.5f, 0.0f), 1e-6);
+    assert_int_equal(s.alpha[at(6.1f, 4.1f)], 159); /* 0.625 */
+    tear_down(&s);
+}
+
+/* The ball's shadow falls on a layer, and on the floor below it, elsewhere. */
+TEST(layers_get_shadows)
 {
     static stage s;
     set_up(&s, 2, NULL);
-    const cgt_triangles floor = {.count = 2,
-                                 .indices = cgt_uint32s(floor_index, 0),
-                                 .vertex_count = 4,
-                                 .vertices = cgt_floats(floor_corner, 0),
-                                 .mask = 2};
-    assert_int_equal(cgt_scene_set_triangles(s.scene, &(uint32_t){FLOOR}, &floor), CGT_OK);
-    s.settings.style.background[2] = 0.5f;
-    s.settings.style.front = 0.25f;
-    s.settings.style.behind_mask = 1;
+    add_walls(&s, 0.5f, -1.0f);
+    s.settings.lighting.lights[0].shadows = 1;
+    memcpy(s.settings.lighting.lights[0].light.position, (float[]){0.7071068f, 0, 0.7071068f}, 3 * sizeof(float));
+    for (int soft = 0; soft < 2; soft++) {
+        s.settings.lighting.lights[0].size = soft ? 0.1f : 0.0f;
+        draw(&s);
+        assert_near(s.pixels[at(-1.9f, 0.1f)].r, 0.0, 1e-6); /* both in shadow */
+        if (!soft)
+            assert_near(s.pixels[at(-3.2f, 0.1f)].r, 0.25 * 0.8 * 0.7071068, 1e-4);
+        assert_near(s.pixels[at(6.1f, 4.1f)].r, (0.25 * 0.8 + 0.75 * 0.5) * 0.7071068, 1e-4);
+    }
+    tear_down(&s);
+}
+
+/* Outlines of a layer are at its rims, not where something opaque hides it. */
+TEST(layers_have_outlines)
+{
+    static stage s;
+    static cgt_linear_pixel without[PIXELS];
+    uint32_t lines = 0;
+    set_up(&s, 2, NULL);
+    add_walls(&s, 2.0f, -1.0f); /* through the middle of the ball */
     draw(&s);
-    assert_near(s.pixels[at(6.1f, 6.1f)].r, 0.25 * 0.5, 1e-6);
-    assert_near(s.pixels[at(6.1f, 6.1f)].b, 0.25 * 0.125 + 0.75 * 0.5, 1e-6);
-    assert_near(s.rgb[3 * at(6.1f, 6.1f) + 2], 255.0 * cgt_srgb_from_linear(0.25f * 0.125f + 0.75f * 0.5f), 1.0);
+    memcpy(without, s.pixels, sizeof without);
+    s.settings.style.outline = 1.0f;
+    draw(&s);
+    for (int y = 0; y < EDGE; y++)
+        for (int x = 0; x < EDGE; x++) {
+            const float dx = ((float)x + 0.5f) / 4.0f - 8.0f, dy = 8.0f - ((float)y + 0.5f) / 4.0f,
+                        away = hypotf(dx, dy);
+            const int differs = s.pixels[y * EDGE + x].r < without[y * EDGE + x].r - 1e-4f;
+            lines += (uint32_t)differs;
+            if (differs && away > 1.05f)
+                fail_msg("a line at %g, %g", (double)dx, (double)dy);
+        }
+    assert_true(lines > 8);
     tear_down(&s);
 }
 
@@ -701,8 +791,11 @@ TEST(bad_options_have_their_sentences)
                {{.style.cue = 2.0f}, "cue 2"},
                {{.style.cue = 1.0f}, "cue from 0 to 0"},
                {{.style.outline = INFINITY}, "outline inf"},
-               {{.style.front = 1.5f}, "front 1.5"},
-               {{.style.front = 0.5f}, "behind_mask"},
+               {{.style.layer_count = 9}, "9 layers: at most 8"},
+               {{.style.layer_count = 1, .style.layers[0] = {2, 1.5f}}, "layer 0: opacity 1.5"},
+               {{.style.layer_count = 1}, "layer 0: mask 0"},
+               {{.style.layer_count = 1, .style.layers[0] = {UINT32_MAX, 0.5f}}, "one must be left"},
+               {{.style.layer_count = 2, .style.layers = {{2, 0.5f}, {6, 0.5f}}}, "layer 1: mask 0x6"},
                {{.bounces.limit = 65}, "65 bounces"},
                {{.bounces.material_count = 1}, "materials must not be NULL"},
                {{.bounces.up[0] = INFINITY}, "up inf"}};
