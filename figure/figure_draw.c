@@ -39,8 +39,8 @@ cgt_picture_options cgt_figure_get_settings(const cgt_figure *figure)
     const picture_options *o = &figure->options.picture;
     cgt_picture_options s = {
         .width = figure->options.width, .height = figure->options.height, .antialias = figure->options.samples};
-    const int is_full =
-        cgt_picture_options_need_drawing(o) || cgt_figure_scene_has_figures(figure) || figure->options.floor.is_set;
+    const int is_full = cgt_picture_options_need_drawing(o) || cgt_figure_scene_has_figures(figure) ||
+                        figure->options.floor.is_set || figure->options.particles.layer_count;
     s.shading = figure->options.bounce.is_set ? CGT_SHADING_BOUNCES : is_full ? CGT_SHADING_FULL : CGT_SHADING_PLAIN;
     s.lighting.ambient = (uint32_t)o->ambient;
     s.lighting.ambient_radius =
@@ -61,10 +61,10 @@ cgt_picture_options cgt_figure_get_settings(const cgt_figure *figure)
         s.style.background[c] = cgt_srgb_decode(o->background[c]);
         s.style.outline_color[c] = 0.01f;
     }
-    if (figure->parts.mesh_entries && figure->options.particles.mesh_opacity < 1.0f) {
-        s.style.layers[0] = (cgt_picture_layer){MASK_MESH, figure->options.particles.mesh_opacity};
-        s.style.layer_count = 1;
-    }
+    s.style.layer_count = figure->options.particles.layer_count;
+    for (uint32_t k = 0; k < s.style.layer_count; k++)
+        s.style.layers[k] = (cgt_picture_layer){cgt_figure_layer_mask(&figure->options.particles, k + 1),
+                                                figure->options.particles.layers[k]};
     if (figure->bounce)
         cgt_figure_bounce_settings(figure, &s);
     s.work.stop = figure->stop;

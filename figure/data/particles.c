@@ -13,24 +13,25 @@ enum { BLOCK = 256 };
 
 int cgt_particle_rules_are_empty(const particle_rules *r)
 {
-    return !r->show && !r->radius && r->radius_scale == 1.0f && !r->radius_count &&
+    return !r->show && !r->radius && !r->layer && r->radius_scale == 1.0f && !r->radius_count &&
            r->images[0] * r->images[1] * r->images[2] == 1;
 }
 
-static int reserve(particles *p, uint64_t count, char *error, size_t error_size)
+static int reserve(particles *p, uint64_t count, int has_layers, char *error, size_t error_size)
 {
     if (count > (uint64_t)1 << 31) {
         snprintf(error, error_size, "the periodic images have %llu spheres: at most 2^31", (unsigned long long)count);
         return -1;
     }
-    if (count <= p->capacity && p->xyzr)
+    if (count <= p->capacity && p->xyzr && (p->layer || !has_layers))
         return 0;
     cgt_particles_free(p);
     const size_t n = count ? (size_t)count : 1;
     p->xyzr = malloc(n * 4 * sizeof *p->xyzr);
     p->index = malloc(n * sizeof *p->index);
     p->source = malloc(n * sizeof *p->source);
-    if (p->xyzr && p->index && p->source) {
+    p->layer = has_layers ? malloc(n) : NULL;
+    if (p->xyzr && p->index && p->source && (p->layer || !has_layers)) {
         p->capacity = n;
         return 0;
     }
@@ -44,6 +45,7 @@ void cgt_particles_free(particles *p)
     free(p->xyzr);
     free(p->index);
     free(p->source);
+    free(p->layer);
     memset(p, 0, sizeof *p);
 }
 
@@ -75,8 +77,10 @@ void cgt_particle_radii(const particle_rules *r, const cgt_trajectory_frame *f, 
 static void select_block(particles *p, const particle_rules *r, const cgt_trajectory_frame *f, const uint16_t *index,
                          uint32_t first, uint32_t count)
 {
-    double show[BLOCK];
+    double show[BLOCK], layer[BLOCK];
     float radius[BLOCK];
+    if (r->layer)
+        cgt_expression_values(r->layer, first, count, layer);
     if (r->show)
         cgt_expression_values(r->show, first, count, show);
     cgt_particle_radii(r, f, first, count, radius);
@@ -89,6 +93,8 @@ static void select_block(particles *p, const particle_rules *r, const cgt_trajec
             continue;
         memcpy(to, f->xyzr + 4 * (size_t)i, 3 * sizeof *to);
         to[3] = radius[k];
+        if (r->layer)
+            p->layer[p->count] = (uint8_t)layer[k];
         p->index[p->count] = index[i];
         p->source[p->count++] = i;
     }
@@ -111,6 +117,8 @@ static void add_images(particles *p, const uint32_t images[3], const cgt_traject
             for (int c = 0; c < 3; c++)
                 to[c] = (float)((double)from[c] + move[c]);
             to[3] = from[3];
+            if (p->layer)
+                p->layer[p->count] = p->layer[i];
             p->index[p->count] = p->index[i];
             p->source[p->count++] = p->source[i];
         }
@@ -134,11 +142,42 @@ int cgt_particles_select(particles *p, const particle_rules *r, const cgt_trajec
         snprintf(error, error_size, "--images: frame %llu has no box", (unsigned long long)f->number);
         return -1;
     }
-    if (reserve(p, (uint64_t)f->count * copies, error, error_size))
+    if (reserve(p, (uint64_t)f->count * copies, r->layer != NULL, error, error_size))
         return -1;
     p->count = 0;
     for (uint32_t first = 0; first < f->count; first += BLOCK)
         select_block(p, r, f, index, first, f->count - first < BLOCK ? f->count - first : BLOCK);
     add_images(p, r->images, f);
+    return 0;
+}
+
+int cgt_particles_sort(particles *p)
+{
+    uint32_t at[PARTICLE_LAYERS] = {0};
+    particles to = {.count = p->count};
+    at[0] = p->layer ? 0 : p->count;
+    for (uint32_t i = 0; i < p->count && p->layer; i++)
+        at[p->layer[i]]++;
+    for (uint32_t k = 0, sum = 0; k < PARTICLE_LAYERS; k++) {
+        p->begin[k] = sum;
+        sum += at[k];
+        at[k] = p->begin[k];
+    }
+    p->begin[PARTICLE_LAYERS] = p->count;
+    if (!p->layer || p->begin[1] == p->count)
+        return 0;
+    char ignored[80];
+    if (reserve(&to, p->capacity, 1, ignored, sizeof ignored))
+        return -1;
+    for (uint32_t i = 0; i < p->count; i++) {
+        const size_t k = at[p->layer[i]]++;
+        memcpy(to.xyzr + 4 * k, p->xyzr + 4 * (size_t)i, 4 * sizeof *to.xyzr);
+        to.index[k] = p->index[i];
+        to.source[k] = p->source[i];
+        to.layer[k] = p->layer[i];
+    }
+    memcpy(to.begin, p->begin, sizeof to.begin);
+    cgt_particles_free(p);
+    *p = to;
     return 0;
 }

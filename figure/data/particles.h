@@ -11,7 +11,7 @@
 
 #include "data/expression.h"
 
-enum { PARTICLE_KINDS = 32 };
+enum { PARTICLE_KINDS = 32, PARTICLE_LAYERS = 9 };
 
 typedef struct particle_kind {
     int is_element; /* kind is an atomic number, else a type */
@@ -23,6 +23,7 @@ typedef struct particle_kind {
 
 typedef struct particle_rules {
     const expression *show;   /* spheres of value 0 or NaN are left out; NULL: none */
+    const expression *layer;  /* whose value is the layer of a sphere; NULL: all are opaque */
     const expression *radius; /* NULL: those of the file. One that is negative or NaN leaves the sphere out */
     float radius_scale;       /* of all radii; above 0 */
     particle_kind radii[PARTICLE_KINDS];
@@ -36,7 +37,9 @@ typedef struct particles {
     float *xyzr;      /* 4 each */
     uint16_t *index;  /* entry of the palette */
     uint32_t *source; /* number in the file */
+    uint8_t *layer;   /* 0: opaque; NULL: all are */
     size_t capacity;
+    uint32_t begin[PARTICLE_LAYERS + 1]; /* of each layer, and their end; after cgt_particles_sort */
 } particles;
 
 /* The radii of the spheres from `first` on, by the rules. */
@@ -50,6 +53,9 @@ int cgt_particle_rules_are_empty(const particle_rules *rules);
  * Returns 0, or -1 with a sentence: images without a box, more than 2^31 spheres, no memory. */
 int cgt_particles_select(particles *p, const particle_rules *rules, const cgt_trajectory_frame *frame,
                          const uint16_t *index, char *error, size_t error_size);
+
+/* Puts the spheres in the order of their layers, else as they were. Returns 0, or -1: no memory. */
+int cgt_particles_sort(particles *p);
 void cgt_particles_free(particles *p);
 
 #endif

@@ -99,6 +99,20 @@ static int may_have(const figure_options *o, uint32_t samples)
            o->width <= FIGURE_MAX_EDGE / samples && o->height <= FIGURE_MAX_EDGE / samples;
 }
 
+uint32_t cgt_particle_options_layer(particle_options *o, float opacity)
+{
+    uint32_t layer = 0;
+    if (!(opacity < 1.0f))
+        return 0;
+    while (layer < o->layer_count && o->layers[layer] != opacity)
+        layer++;
+    if (layer == CGT_PICTURE_MAX_LAYERS)
+        return UINT32_MAX;
+    o->layer_count += layer == o->layer_count;
+    o->layers[layer] = opacity;
+    return layer + 1;
+}
+
 /* Words are of categories, which the colours have or may have. */
 static int check_word(const figure_options *o, const char *option, const particle_kind *kind, char *error, size_t size)
 {
@@ -146,6 +160,11 @@ int cgt_figure_options_finish(figure_options *o, char *error, size_t size)
         return cgt_refuse(error, size, "--view: the direction must not be along the axis that points up");
     if (o->bounce.count && !o->bounce.is_set)
         return cgt_refuse(error, size, "--material is for --bounces");
+    if (o->bounce.is_set && o->particles.layer_count)
+        return cgt_refuse(error, size, "--opacity and --bounces exclude each other: --material makes glass");
+    o->particles.mesh_layer = cgt_particle_options_layer(&o->particles, o->particles.mesh_opacity);
+    if (o->particles.mesh_layer == UINT32_MAX)
+        return cgt_refuse(error, size, "--mesh-opacity: more than %d opacities", CGT_PICTURE_MAX_LAYERS);
     return check_words(o, error, size);
 }
 

@@ -85,6 +85,12 @@ typedef struct particle_options {
     uint8_t trail_color[3];
     uint8_t mesh_color[3];
     float mesh_opacity; /* above 0, to 1 */
+    /* What is transparent is in layers, by opacity: layer k from 1 has layers[k - 1], 0 is opaque. */
+    char opacity[2048]; /* a formula whose value is a sphere's layer; "": all are opaque */
+    uint32_t layer_count;
+    float layers[CGT_PICTURE_MAX_LAYERS];
+    int has_bond_layer; /* else bonds are as transparent as their ends */
+    uint32_t bond_layer, mesh_layer;
 } particle_options;
 
 /* ---- Mirrors and glass --------------------------------------------------------------------------------------- */
@@ -181,6 +187,9 @@ int cgt_figure_options_finish(figure_options *o, char *error, size_t size);
 /* Chooses up and view where no option does: up is z for spheres, as in simulators, and y for triangles, as
  * in modelling programs; another axis where that is the view. The view is from the side and slightly above. */
 void cgt_figure_options_axes(figure_options *o, cgt_trajectory_kind kind);
+
+/* The layer of an opacity above 0, which is made where there is none; UINT32_MAX: there is no room for it. */
+uint32_t cgt_particle_options_layer(particle_options *options, float opacity);
 
 /* Whether anything lies over the picture. */
 int cgt_picture_options_have_overlay(const picture_options *options);

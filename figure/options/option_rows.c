@@ -154,6 +154,13 @@ const option_row cgt_figure_rows[] = {
      PARSED(particles, cgt_parse_type_color), .repeats = 1},
     {"type-name", 0, "TYPE=NAME", "What --legend calls a type, an element or a category: 2=water, A='chain A'",
      PARSED(particles, cgt_parse_type_name), .repeats = 1},
+    {"opacity", 0, "WHAT=SHARE",
+     "How much of the nearest side of spheres covers what is behind them, above 0 to 1: of a type, an element, those "
+     "for "
+     "which a formula is not 0, or of bonds, such as 2=0.3, H=0.5, water=0.2, 'chain != \"A\"=0.2', bonds=0.5; the "
+     "last "
+     "that fits a sphere counts. Bonds are as their more transparent end; at most eight shares",
+     PARSED(particles, cgt_parse_opacity), .words = "bonds=0.5 water=0.2", .repeats = 1},
     {"images", 0, "A,B,C", "Repeat everything so many times along the edges of the box",
      PARSED(particles.images, cgt_parse_images)},
     {"box", 0, "RADIUS", "Edges of the simulation box, as tubes of this radius",

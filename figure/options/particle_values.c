@@ -232,6 +232,47 @@ int cgt_parse_type_name(const char *text, void *to, char *error, size_t size)
     return 0;
 }
 
+/* ---- Opacity ------------------------------------------------------------------------------------------------- */
+
+/* WHAT=SHARE: a type, an element or a formula, whose spheres go to the layer of the share, whatever was said of them
+ * before; those for which a formula is NaN do not. */
+int cgt_parse_opacity(const char *text, void *to, char *error, size_t size)
+{
+    particle_options *o = to;
+    char what[1024], condition[1024], formula[sizeof o->opacity];
+    const char *const mark = strrchr(text, '=');
+    const size_t length = mark ? (size_t)(mark - text) : 0;
+    float share;
+    if (length == 0 || length >= sizeof what)
+        return cgt_refuse(error, size, "\"%.80s\" is not of the form WHAT=SHARE", text);
+    memcpy(what, text, length);
+    what[length] = '\0';
+    if (cgt_read_float(mark + 1, 0.001f, 1.0f, &share, error, size))
+        return -1;
+    const uint32_t layer = cgt_particle_options_layer(o, share);
+    if (layer == UINT32_MAX)
+        return cgt_refuse(error, size, "more than %d opacities", CGT_PICTURE_MAX_LAYERS);
+    if (strcmp(what, "bonds") == 0) {
+        o->has_bond_layer = 1;
+        o->bond_layer = layer;
+        return 0;
+    }
+    const uint32_t element = element_named(what);
+    expression *const given = is_type(what) ? NULL : cgt_expression_parse(what, error, size);
+    if (!is_type(what) && !given)
+        return -1;
+    cgt_expression_free(given);
+    if (element)
+        snprintf(condition, sizeof condition, "element == %u", (unsigned)element);
+    else
+        snprintf(condition, sizeof condition, "%s%s", is_type(what) ? "type == " : "", what);
+    if (snprintf(formula, sizeof formula, "if(abs(%s) > 0, %u, %s)", condition, (unsigned)layer,
+                 *o->opacity ? o->opacity : "0") >= (int)sizeof formula)
+        return cgt_refuse(error, size, "the conditions are too long together");
+    memcpy(o->opacity, formula, sizeof formula);
+    return 0;
+}
+
 /* ---- Mirrors and glass --------------------------------------------------------------------------------------- */
 
 /* INDEX or INDEX:PRIORITY. */

@@ -11,9 +11,19 @@
 
 /* ---- One bond ----------------------------------------------------------------------------------------------- */
 
+static int is_left_out(const bond_rules *r, const particles *p, uint32_t a, uint32_t b)
+{
+    const uint32_t one = p->layer ? p->layer[a] : 0, other = p->layer ? p->layer[b] : 0;
+    if (!r->opacity)
+        return 0;
+    return (r->layer >= 0 ? (uint32_t)r->layer : r->opacity[one] <= r->opacity[other] ? one : other) != r->only;
+}
+
 /* Two halves, which meet in the middle. */
 static void add_bond(sticks *s, const bond_rules *r, const particles *p, uint32_t a, uint32_t b)
 {
+    if (is_left_out(r, p, a, b))
+        return;
     const float *pa = p->xyzr + 4 * (size_t)a, *pb = p->xyzr + 4 * (size_t)b;
     const uint16_t ea = r->entry < 0 ? p->index[a] : (uint16_t)r->entry;
     const uint16_t eb = r->entry < 0 ? p->index[b] : (uint16_t)r->entry;

@@ -72,10 +72,11 @@ int cgt_figure_scene_open(cgt_figure *figure)
     figure_scene *s = &figure->parts;
     particle_rules *rules = &s->rules;
     if (open_formula(figure, o->show, &s->show) || open_formula(figure, o->radius, &s->radius) ||
-        (o->arrows && parse_arrows(figure, o->arrows)))
+        open_formula(figure, o->opacity, &s->layer) || (o->arrows && parse_arrows(figure, o->arrows)))
         return -1;
     rules->show = s->show;
     rules->radius = s->radius;
+    rules->layer = s->layer;
     rules->radius_scale = o->radius_scale;
     rules->radius_count = o->radius_count;
     memcpy(rules->radii, o->radii, sizeof rules->radii);
@@ -294,6 +295,25 @@ static float figure_unit(const cgt_trajectory_frame *f, const particles *p)
     return isfinite(smallest) ? 2.0f * smallest : 1.0f;
 }
 
+/* Layer by layer, what is opaque last. */
+static int add_bonds(const particle_options *o, const bond_rules *rules, const cgt_trajectory_frame *f,
+                     frame_parts *parts, char *error, size_t error_size)
+{
+    float opacity[PARTICLE_LAYERS] = {1.0f};
+    bond_rules of_layer = *rules;
+    memcpy(opacity + 1, o->layers, sizeof o->layers);
+    of_layer.opacity = o->layer_count ? opacity : NULL;
+    of_layer.layer = o->has_bond_layer ? (int32_t)o->bond_layer : -1;
+    for (uint32_t k = PARTICLE_LAYERS; k-- > 0;) {
+        parts->bond_begin[k] = parts->sticks.count;
+        of_layer.only = k;
+        if (o->bonds && k <= o->layer_count &&
+            cgt_shapes_add_bonds(&parts->sticks, &of_layer, f, &parts->particles, error, error_size))
+            return -1;
+    }
+    return 0;
+}
+
 static int make_figures(const cgt_figure *figure, const cgt_trajectory_frame *f, frame_parts *parts, char *error,
                         size_t error_size)
 {
@@ -308,7 +328,7 @@ static int make_figures(const cgt_figure *figure, const cgt_trajectory_frame *f,
                               .images = {o->images[0], o->images[1], o->images[2]}};
     cgt_sticks_clear(&parts->sticks, choose_sides(o, &parts->particles));
     set_thinnest(figure, f, &parts->sticks);
-    if (o->bonds && cgt_shapes_add_bonds(&parts->sticks, &bonds, f, &parts->particles, error, error_size))
+    if (add_bonds(o, &bonds, f, parts, error, error_size))
         return -1;
     if (o->arrows)
         cgt_shapes_add_arrows(&parts->sticks, vector, o->arrow_scale,
@@ -354,16 +374,22 @@ int cgt_figure_scene_prepare(const cgt_figure *figure, const cgt_trajectory_fram
 {
     const figure_scene *s = &figure->parts;
     if (f->kind == CGT_TRAJECTORY_TRIANGLES && s->selects) {
-        snprintf(error, error_size,
-                 "%s: --show, --hide, --slice, --cut, radii, bonds, arrows, trails and images are for spheres, and "
-                 "this is a file of triangles",
-                 figure->source);
+        snprintf(
+            error, error_size,
+            "%s: --show, --hide, --slice, --cut, radii, opacity, bonds, arrows, trails and images are for spheres, "
+            "and this is a file of triangles",
+            figure->source);
         return -1;
     }
     if (s->selects && cgt_particles_select(&parts->particles, &s->rules, f, index, error, error_size))
         return -1;
-    return find_rules(figure, f, parts, error, error_size) || make_figures(figure, f, parts, error, error_size) ? -1
-                                                                                                                : 0;
+    if (find_rules(figure, f, parts, error, error_size) || make_figures(figure, f, parts, error, error_size))
+        return -1;
+    if (s->selects && cgt_particles_sort(&parts->particles)) {
+        snprintf(error, error_size, "out of memory for %" PRIu32 " spheres", parts->particles.count);
+        return -1;
+    }
+    return 0;
 }
 
 void cgt_frame_parts_free(frame_parts *parts)
@@ -377,10 +403,11 @@ void cgt_frame_parts_free(frame_parts *parts)
 static cgt_result set_spheres(cgt_figure *figure)
 {
     const float *xyzr = figure->parts.selects ? figure->parts.frame->particles.xyzr : figure->frame->xyzr;
-    const uint32_t count = figure->parts.selects ? figure->parts.frame->particles.count : figure->frame->count;
+    const uint32_t count = figure->parts.selects ? figure->parts.frame->particles.begin[1] : figure->frame->count;
     const cgt_spheres spheres = {.count = count,
                                  .centers = cgt_floats(xyzr, 4 * sizeof(float)),
-                                 .radii = cgt_floats(count ? xyzr + 3 : NULL, 4 * sizeof(float))};
+                                 .radii = cgt_floats(count ? xyzr + 3 : NULL, 4 * sizeof(float)),
+                                 .mask = cgt_figure_layer_mask(&figure->options.particles, 0)};
     if (!figure->has_geometry)
         figure->geometry = CGT_INVALID_ID;
     return cgt_scene_set_spheres(figure->scene, &figure->geometry, &spheres);
@@ -410,20 +437,24 @@ static cgt_result set_sticks(cgt_figure *figure)
 {
     figure_scene *s = &figure->parts;
     const sticks *t = &s->frame->sticks;
-    const cgt_capsules capsules = {.count = t->count,
-                                   .vertex_count = 2 * t->count,
-                                   .vertices = cgt_floats(t->end, 0),
-                                   .radii = cgt_floats(t->count ? t->radius : NULL, 0)};
+    const uint32_t begin = s->frame->bond_begin[0], count = t->count - begin;
+    const uint32_t mask = cgt_figure_layer_mask(&figure->options.particles, 0);
+    const cgt_capsules capsules = {.count = count,
+                                   .vertex_count = 2 * count,
+                                   .vertices = cgt_floats(count ? t->end + 6 * (size_t)begin : t->end, 0),
+                                   .radii = cgt_floats(count ? t->radius + begin : NULL, 0),
+                                   .mask = mask};
     const cgt_triangles facets = {.count = t->triangles,
                                   .indices = cgt_uint32s(t->index, 0),
                                   .vertex_count = t->vertices,
-                                  .vertices = cgt_floats(t->position, 0)};
+                                  .vertices = cgt_floats(t->position, 0),
+                                  .mask = mask};
     cgt_result result = CGT_OK;
     if (!s->has_sticks)
         s->sticks_geometry = CGT_INVALID_ID;
-    if (s->has_sticks || t->count)
+    if (s->has_sticks || count)
         result = cgt_scene_set_capsules(figure->scene, &s->sticks_geometry, &capsules);
-    s->has_sticks |= t->count && result == CGT_OK;
+    s->has_sticks |= count && result == CGT_OK;
     if (result == CGT_OK && (s->has_facets || t->triangles))
         result = set_triangles(figure, &facets, &s->has_facets, &s->facets_geometry);
     return result;
@@ -434,30 +465,34 @@ int cgt_figure_scene_set(cgt_figure *figure, const frame_parts *parts)
     figure_scene *s = &figure->parts;
     const cgt_trajectory_frame *f = figure->frame;
     s->frame = parts;
-    const int is_layer = figure->options.particles.mesh_opacity < 1.0f;
+    const particle_options *const o = &figure->options.particles;
     if (figure->bounce)
         return cgt_figure_bounce_set(figure, parts);
     cgt_result result = f->kind == CGT_TRAJECTORY_TRIANGLES
-                            ? set_mesh(figure, f, 0, &figure->has_geometry, &figure->geometry)
+                            ? set_mesh(figure, f, cgt_figure_layer_mask(o, 0), &figure->has_geometry, &figure->geometry)
                             : set_spheres(figure);
     if (result)
         return cgt_figure_fail_library(
             figure, f->kind == CGT_TRAJECTORY_TRIANGLES ? "take the triangles" : "take the spheres", result);
     figure->has_geometry = 1;
     if (s->mesh_entries && !s->has_mesh)
-        result = set_mesh(figure, &s->mesh, is_layer ? MASK_MESH : 0, &s->has_mesh, &s->mesh_geometry);
+        result = set_mesh(figure, &s->mesh, cgt_figure_layer_mask(o, o->mesh_layer), &s->has_mesh, &s->mesh_geometry);
+    s->floor.triangles.mask = cgt_figure_layer_mask(o, 0);
     if (!result && s->floor.triangles.count && !s->has_floor)
         result = set_triangles(figure, &s->floor.triangles, &s->has_floor, &s->floor_geometry);
     if (!result)
         result = set_sticks(figure);
+    if (!result)
+        result = cgt_figure_layers_set(figure);
     return result ? cgt_figure_fail_library(figure, "take figures or mesh", result) : 0;
 }
 
 int cgt_figure_scene_find(const cgt_figure *figure, uint32_t geometry, uint32_t primitive, uint32_t *element)
 {
     const figure_scene *const s = &figure->parts;
-    const int is_file =
-        figure->bounce ? cgt_figure_bounce_find(figure, geometry, &primitive) : geometry == figure->geometry;
+    const int is_file = figure->bounce
+                            ? cgt_figure_bounce_find(figure, geometry, &primitive)
+                            : geometry == figure->geometry || cgt_figure_layers_find(figure, geometry, &primitive) == 0;
     *element = is_file && s->selects ? s->frame->particles.source[primitive] : primitive;
     return is_file;
 }
@@ -485,9 +520,9 @@ uint32_t cgt_figure_scene_looks(const cgt_figure *figure, cgt_look *looks)
     if (s->has_sticks) {
         cgt_look *stick = &looks[s->sticks_geometry];
         *stick = plain;
-        stick->index = s->frame->sticks.entry;
+        stick->index = s->frame->sticks.entry + 2 * (size_t)s->frame->bond_begin[0];
         stick->halves = true;
-        stick->lineless_from = s->frame->bonds + 1;
+        stick->lineless_from = s->frame->bonds - s->frame->bond_begin[0] + 1;
     }
     if (s->has_facets) {
         cgt_look *facets = &looks[s->facets_geometry];
@@ -509,7 +544,8 @@ uint32_t cgt_figure_scene_looks(const cgt_figure *figure, cgt_look *looks)
         floor->index = entry;
         floor->lineless_from = 1; /* its horizon is no rim */
     }
-    return 1 + (uint32_t)s->has_sticks + (uint32_t)s->has_facets + (uint32_t)s->has_mesh + (uint32_t)s->has_floor;
+    return 1 + (uint32_t)s->has_sticks + (uint32_t)s->has_facets + (uint32_t)s->has_mesh + (uint32_t)s->has_floor +
+           cgt_figure_layers_looks(figure, looks);
 }
 
 void cgt_figure_scene_close(cgt_figure *figure)
@@ -517,6 +553,7 @@ void cgt_figure_scene_close(cgt_figure *figure)
     figure_scene *s = &figure->parts;
     cgt_expression_free(s->show);
     cgt_expression_free(s->radius);
+    cgt_expression_free(s->layer);
     for (int i = 0; i < 3; i++)
         cgt_expression_free(s->arrow[i]);
     free(s->mesh_entries);

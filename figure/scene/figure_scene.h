@@ -23,16 +23,15 @@ enum {
     FIGURE_ENTRIES
 };
 
-enum { FIGURE_LOOKS = 5 };
-
-/* Bits of masks: a mesh that is seen through has a bit of its own. */
-enum { MASK_OPAQUE = 1, MASK_MESH = 2 };
+/* The file's geometry, sticks, facets, mesh and floor; spheres and bonds of each layer. */
+enum { FIGURE_LOOKS = 5 + 2 * CGT_PICTURE_MAX_LAYERS };
 
 /* What is drawn of a frame, in arrays of its own: made by the thread that reads, while the frame's columns are
  * there. */
 typedef struct frame_parts {
     particles particles; /* where the spheres are not the file's own */
     sticks sticks;
+    uint32_t bond_begin[PARTICLE_LAYERS]; /* of the bonds of each layer: those of 8 first, of 0 last */
     uint32_t bonds, arrows; /* capsules before trails, and triangles before the box, which get no outlines */
     int8_t *rules;          /* of each sphere that is drawn: its --material, or -1. NULL: there are none */
     size_t rule_room;
@@ -40,14 +39,17 @@ typedef struct frame_parts {
 
 typedef struct figure_scene {
     particle_rules rules;
-    expression *show, *radius, *arrow[3]; /* NULL: not asked for */
-    int selects;                          /* spheres are copied to particles: a rule or a figure needs them */
-    float palette[FIGURE_ENTRIES][3];     /* linear: that of the colouring, then those of figures */
-    cgt_trajectory_frame mesh;            /* that stands still; the caller's arrays */
-    uint16_t *mesh_entries;               /* NULL: there is none */
+    expression *show, *radius, *layer, *arrow[3]; /* NULL: not asked for */
+    int selects;                                  /* spheres are copied to particles: a rule or a figure needs them */
+    float palette[FIGURE_ENTRIES][3];             /* linear: that of the colouring, then those of figures */
+    cgt_trajectory_frame mesh;                    /* that stands still; the caller's arrays */
+    uint16_t *mesh_entries;                       /* NULL: there is none */
     floor_mesh floor;
     int has_sticks, has_facets, has_mesh, has_floor; /* their geometries are in the scene */
     uint32_t sticks_geometry, facets_geometry, mesh_geometry, floor_geometry;
+    /* Of each layer from 1 on, where its geometries are in the scene. */
+    int has_layer_spheres[PARTICLE_LAYERS], has_layer_bonds[PARTICLE_LAYERS];
+    uint32_t layer_spheres[PARTICLE_LAYERS], layer_bonds[PARTICLE_LAYERS];
     const frame_parts *frame; /* that is drawn */
 } figure_scene;
 
@@ -80,6 +82,15 @@ void cgt_frame_parts_free(frame_parts *parts);
 
 /* Hands r->frame and its parts to the library's scene. */
 int cgt_figure_scene_set(cgt_figure *figure, const frame_parts *parts);
+
+/* The mask of a layer's geometries; of layer 0, what is opaque, all bits where there are no layers. */
+uint32_t cgt_figure_layer_mask(const particle_options *options, uint32_t layer);
+
+/* Hands the transparent spheres and bonds to the scene; sets their looks, at most `count` in all then; finds what a
+ * sphere of theirs is among all that are drawn: 0, or -1. */
+cgt_result cgt_figure_layers_set(cgt_figure *figure);
+uint32_t cgt_figure_layers_looks(const cgt_figure *figure, cgt_look *looks);
+int cgt_figure_layers_find(const cgt_figure *figure, uint32_t geometry, uint32_t *primitive);
 
 /* Whether what a ray has hit is of the file, and the number there of that sphere or triangle. */
 int cgt_figure_scene_find(const cgt_figure *figure, uint32_t geometry, uint32_t primitive, uint32_t *element);

@@ -24,6 +24,11 @@ typedef struct bond_rules {
     float radius;
     int32_t entry;      /* -1: the spheres' */
     uint32_t images[3]; /* of particle_rules, by which the spheres were selected */
+    /* Of layers: only the bonds of one are added, which a bond has from its more transparent end, or all have from
+     * `layer` where that is not negative. */
+    const float *opacity; /* by layer; NULL: there are no layers */
+    uint32_t only;
+    int32_t layer;
 } bond_rules;
 
 /* Adds bonds of one frame, which may have none. A bond of the frame that goes through a periodic boundary, as

@@ -14,6 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "options/figure_values.h"
 #include "view/viewer_internal.h"
 
 enum { SPHERES = 200, FRAMES = 12, WIDTH = 96, HEIGHT = 64 };
@@ -58,6 +59,8 @@ static int remove_run(void **state)
 
 static void wake(void *user) { (void)user; }
 
+static const char *opacity; /* of spheres; NULL: they are opaque */
+
 static viewer *open_viewer(uint32_t memory)
 {
     view_options o = {.budget = 16.0f, .pictures = "view_%04d.png", .keys = "camera.keys"};
@@ -80,6 +83,8 @@ static viewer *open_viewer(uint32_t memory)
     p->sky = 0.36f;
     p->head = 0.1f;
     p->outline = p->cue = p->light_size = 0.0f;
+    char error[256];
+    assert_true(!opacity || cgt_parse_opacity(opacity, &o.render.figure.particles, error, sizeof error) == 0);
     viewer *const v = viewer_create(&o, wake, NULL);
     assert_non_null(v);
     assert_false(viewer_has_failed(v));
@@ -230,7 +235,7 @@ static int brute_force(const view_frame *f, const cgt_camera *camera, uint32_t x
     return grazes || second - nearest < 1e-6 * nearest ? -2 : found;
 }
 
-TEST(clicks_select_what_is_hit)
+static void try_clicks(void)
 {
     viewer *const v = open_viewer(64);
     test_random r = random_make(3);
@@ -261,6 +266,15 @@ TEST(clicks_select_what_is_hit)
     }
     assert_true(hits > 50 && misses > 50);
     viewer_free(v);
+}
+
+/* Some of it seen through. */
+TEST(clicks_select_what_is_hit)
+{
+    try_clicks();
+    opacity = "mod(index, 3) == 1=0.4";
+    try_clicks();
+    opacity = NULL;
 }
 
 /* What is selected is followed by its id; columns, distance and angle are told. */

@@ -149,6 +149,7 @@ static const option_row rows[] = {
     {"type-radius", .type = OPTION_FIGURE},
     {"type-color", .type = OPTION_FIGURE},
     {"type-name", .type = OPTION_FIGURE},
+    {"opacity", .type = OPTION_FIGURE},
     {"images", .type = OPTION_FIGURE},
     {"box", .type = OPTION_FIGURE},
     {"bonds", .type = OPTION_FIGURE},

@@ -170,8 +170,9 @@ int view_draw_resize(view_draw *d, uint32_t width, uint32_t height)
 static int bind(view_draw *d, const view_frame *f)
 {
     renderer *const r = &d->r;
-    expression *const all[] = {r->figure.formula,        r->figure.parts.show,     r->figure.parts.radius,
-                               r->figure.parts.arrow[0], r->figure.parts.arrow[1], r->figure.parts.arrow[2]};
+    expression *const all[] = {r->figure.formula,       r->figure.parts.show,     r->figure.parts.radius,
+                               r->figure.parts.layer,   r->figure.parts.arrow[0], r->figure.parts.arrow[1],
+                               r->figure.parts.arrow[2]};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         if (all[i] && cgt_expression_bind(all[i], &f->frame, f->speed, r->error, sizeof r->error))
             return render_fail(r);

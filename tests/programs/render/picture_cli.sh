@@ -228,6 +228,27 @@ refuses 1 'no column "resname", by which to know water, but x, y, z' --hide wate
 refuses 2 '--show: ' --show 'charge >' row.xyz
 refuses 1 'no column "mass", but x, y, z' --show 'mass > 1' row.xyz
 refuses 2 '--type-color: ' --type-color Xx=red row.xyz
+# What is seen through: by element, type or formula, the last that fits.
+draw faded -c $camera --opacity O=0.4 row.xyz
+differs soft faded --opacity
+draw faded_as -c $camera --opacity 'vz != 0=0.4' row.xyz
+same faded faded_as "--opacity by a formula"
+draw faded_again -c $camera --opacity H=1 --opacity O=0.9 --opacity 'charge > 0=0.4' row.xyz
+same faded faded_again "the last --opacity does not count"
+draw solid -c $camera --opacity O=0.4 --opacity O=1 row.xyz
+same soft solid "what is opaque again"
+draw unknown -c $camera --opacity 'sqrt(-charge - 9) >= 0=0.4' --opacity 'log(-1)=0.4' row.xyz
+same soft unknown "--opacity where nothing is known"
+draw joined -c $camera --radius-scale=0.2 --bonds=1.1 --opacity O=0.4 row.xyz
+draw joined_as -c $camera --radius-scale=0.2 --bonds=1.1 --opacity O=0.4 --opacity bonds=0.4 row.xyz
+same joined joined_as "bonds are not as transparent as their ends"
+draw joined_solid -c $camera --radius-scale=0.2 --bonds=1.1 --opacity O=0.4 --opacity bonds=1 row.xyz
+differs joined joined_solid "--opacity of bonds"
+refuses 2 '--opacity: ' --opacity 2 row.xyz
+refuses 2 '--opacity: ' --opacity O=1.5 row.xyz
+refuses 2 '--opacity: "charge >", at character' --opacity 'charge >=0.5' row.xyz
+refuses 2 '--opacity and --bounces exclude each other' --opacity O=0.5 --bounces 2 row.xyz
+refuses 1 'no column "mass", but x, y, z' --opacity 'mass > 1=0.5' row.xyz
 # Words and whole numbers in the colours of types, whatever is shown.
 draw words -c $camera --color=species row.xyz
 draw words_as -c $camera --category='if(element == 8, 1, if(element == 1, 2, 3))' row.xyz

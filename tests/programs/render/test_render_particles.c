@@ -91,6 +91,38 @@ TEST(rules_choose_and_size)
     cgt_expression_free(unknown);
 }
 
+/* Each layer has its spheres in their order, images included. */
+TEST(layers_are_sorted)
+{
+    char error[256] = "";
+    particles p = {0};
+    const cgt_trajectory_frame frame = make_frame(11);
+    particle_rules rules = no_rules();
+    expression *const layer = cgt_expression_parse("if(type == 2, 3, if(type == 3, 1, 0))", error, sizeof error);
+    assert_int_equal(cgt_expression_bind(layer, &frame, NULL, error, sizeof error), 0);
+    rules.layer = layer;
+    rules.images[1] = 2;
+    assert_false(cgt_particle_rules_are_empty(&rules));
+    for (int turn = 0; turn < 2; turn++) { /* in the same memory again */
+        assert_int_equal(cgt_particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
+        assert_int_equal(cgt_particles_sort(&p), 0);
+        static const uint32_t of_layer[4] = {1, 3, 0, 2}; /* types */
+        assert_int_equal(p.begin[PARTICLE_LAYERS], 2 * COUNT);
+        for (uint32_t k = 0; k < PARTICLE_LAYERS; k++) {
+            assert_int_equal(p.begin[k + 1] - p.begin[k], k < 4 && of_layer[k] ? 2 * COUNT / 3 : 0);
+            for (uint32_t i = p.begin[k]; i < p.begin[k + 1]; i++) {
+                const uint32_t source = p.source[i], n = i - p.begin[k];
+                assert_int_equal(type[source], of_layer[k]);
+                assert_int_equal(source, 3 * (n % (COUNT / 3)) + of_layer[k] - 1);
+                assert_int_equal(p.index[i], entry[source]);
+                assert_true(p.layer[i] == k && p.xyzr[4 * (size_t)i] == xyzr[4 * (size_t)source]);
+            }
+        }
+    }
+    cgt_particles_free(&p);
+    cgt_expression_free(layer);
+}
+
 TEST(images_follow_the_boxes_edges)
 {
     char error[256] = "";
