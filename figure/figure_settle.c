@@ -230,6 +230,8 @@ int cgt_figure_choose_colors(cgt_figure *figure)
     if (by == COLORING_PLAIN ? cgt_coloring_init_plain(&figure->coloring, o->plain)
                              : cgt_coloring_init(&figure->coloring, by, o->map, min, max))
         return cgt_figure_fail(figure, "out of memory");
+    if (o->own_map.count)
+        cgt_coloring_set_table(&figure->coloring, &o->own_map);
     figure->coloring.axis = axis;
     figure->coloring.formula = figure->formula;
     figure->coloring.categories = &figure->categories;

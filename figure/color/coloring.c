@@ -44,6 +44,17 @@ int cgt_coloring_init(coloring *c, coloring_by by, const cgt_colormap *map, doub
     return 0;
 }
 
+void cgt_coloring_set_table(coloring *c, const color_table *table)
+{
+    float srgb[3];
+    if (coloring_has_kinds(c->by) || c->by == COLORING_PLAIN)
+        return;
+    for (uint32_t i = 0; i < COLORING_STEPS; i++) {
+        cgt_color_table_get(table, (float)i / (float)(COLORING_STEPS - 1), srgb);
+        set_entry(c, i, srgb);
+    }
+}
+
 int cgt_coloring_init_plain(coloring *c, const float srgb[3])
 {
     if (cgt_coloring_init(c, COLORING_PLAIN, NULL, 0.0, 0.0))

@@ -13,6 +13,7 @@
 #include <cgt/picture.h>
 
 #include "color/categories.h"
+#include "color/color_table.h"
 #include "data/expression.h"
 #include "survey/survey.h"
 
@@ -57,7 +58,10 @@ static inline int coloring_has_kinds(coloring_by by)
  * -1 where there is no memory. */
 int cgt_coloring_init(coloring *c, coloring_by by, const cgt_colormap *map, double min, double max);
 
-/* The same for PLAIN: the one colour, in sRGB from 0 to 1. */
+/* Puts a map of the user's own in place of the map, where colours stand for amounts. */
+void cgt_coloring_set_table(coloring *c, const color_table *table);
+
+/* Makes a colouring of PLAIN: the one colour, in sRGB from 0 to 1. */
 int cgt_coloring_init_plain(coloring *c, const float srgb[3]);
 void cgt_coloring_free(coloring *c);
 

@@ -173,6 +173,7 @@ typedef struct figure_options {
     int logarithmic;
     float plain[3]; /* sRGB, 0 to 1: the one colour of COLORING_PLAIN */
     const cgt_colormap *map;
+    color_table own_map; /* count above 0: in place of the map */
     int has_range;
     double range_min, range_max; /* of the colours; where has_range */
     int is_symmetric;            /* else the range that is found is made one about 0 */

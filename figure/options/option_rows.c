@@ -51,12 +51,13 @@ const option_row cgt_figure_rows[] = {
      "Colours that tell apart: one for each whole number of a column or formula, such as mol or 'floor(x/10)', or for "
      "each word of a column, as --color=COLUMN has where there are words",
      WHOLE(cgt_parse_category)},
-    {"colormap", 0, "NAME",
+    {"colormap", 0, "NAME|FILE",
      "For values: viridis (default), plasma, cividis, magma, inferno, batlow; for values about 0 coolwarm, vik, "
      "berlin; "
-     "for angles romaO, vikO; NAME_r is reversed",
-     PARSED(map, cgt_parse_colormap),
-     .words = "viridis plasma cividis magma inferno batlow coolwarm vik berlin romaO vikO"},
+     "for angles romaO, vikO; NAME_r is reversed. Or a file with a colour a line, red, green and blue from 0 to 1 or "
+     "to "
+     "255, or RRGGBB",
+     WHOLE(cgt_parse_colormap), .words = "viridis plasma cividis magma inferno batlow coolwarm vik berlin romaO vikO"},
     {"range", 0, "MIN,MAX|symmetric",
      "Values at the ends of the map; default: the 1 % and the 99 % quantile of the run's values, for speeds 0 and the "
      "99 % quantile; for id and height the whole range. symmetric: as far below 0 as above",

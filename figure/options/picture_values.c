@@ -126,16 +126,22 @@ int cgt_parse_category(const char *text, void *to, char *error, size_t size)
 
 int cgt_parse_colormap(const char *text, void *to, char *error, size_t size)
 {
-    const cgt_colormap *found = cgt_find_colormap(text);
-    if (!found) {
-        char names[200] = "";
-        for (const char *const *name = cgt_get_colormap_names(); *name; name++)
-            snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", *names ? ", " : "", *name);
-        snprintf(error, size, "there is no map \"%s\": %s, or one of these with _r, reversed", text, names);
-        return -1;
+    figure_options *const o = to;
+    const cgt_colormap *const found = cgt_find_colormap(text);
+    if (!found && strpbrk(text, "./\\"))
+        return cgt_color_table_read(&o->own_map, text, error, size);
+    if (found) {
+        o->map = found;
+        o->own_map.count = 0;
+        return 0;
     }
-    *(const cgt_colormap **)to = found;
-    return 0;
+    char names[200] = "";
+    for (const char *const *name = cgt_get_colormap_names(); *name; name++)
+        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", *names ? ", " : "", *name);
+    return cgt_refuse(error, size,
+                      "there is no map \"%s\": %s, one of these with _r, reversed, or a file, whose name has a dot or "
+                      "a slash",
+                      text, names);
 }
 
 /* x,y,z, then strength, then colour. */

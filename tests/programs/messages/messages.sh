@@ -56,6 +56,10 @@ echo '0' >bad.keys
 echo '0 0,0,9,0,0,0,0,1,0,30 fast' >pace.keys
 cat good.keys good.keys >order.keys
 : >lines.keys
+printf '# a map\n0 0 0\n0.5 0.5 -1\n' >bad.map
+printf '0 0 0\n#ffffff\n' >both.map
+yes '1 2 3' | head -n 4097 >many.map
+printf '\n#ff0000\n\n' >one.map
 yes '#' | head -n 1000001 >lines.txt
 awk 'BEGIN { for (i = 0; i < 65537; i++) print i, "0,0,9,0,0,0,0,1,0,30" }' >many.keys
 echo 'colour = red' >bad.txt

@@ -228,6 +228,25 @@ refuses 1 'no column "resname", by which to know water, but x, y, z' --hide wate
 refuses 2 '--show: ' --show 'charge >' row.xyz
 refuses 1 'no column "mass", but x, y, z' --show 'mass > 1' row.xyz
 refuses 2 '--type-color: ' --type-color Xx=red row.xyz
+# Maps of one's own: from black to white and on to red, in four spellings.
+printf '0 0 0\n1,1,1\n1.0\t0\t0\n' >"$tmp/shares.map"
+printf '\357\273\277# black, white, red\r\n  0 0 0\r\n\r\n255 255 255\r\n255 0 0' >"$tmp/bytes.map"
+printf '#000000\n# a remark\nffFFff \nFF0000\n' >"$tmp/hex.map"
+awk 'BEGIN { for (i = 0; i <= 2000; i++) print i < 1000 ? i * .255 : 255, i < 1000 ? i * .255 : (2000 - i) * .255,
+    i < 1000 ? i * .255 : (2000 - i) * .255 }' >"$tmp/long.map"
+draw viridis -c $camera --color=charge row.xyz
+for map in shares bytes hex long; do
+    draw map_$map -c $camera --color=charge --style=plain --colormap=$map.map row.xyz
+done
+differs viridis map_shares "--colormap of a file"
+same map_shares map_bytes "colours from 0 to 255"
+same map_shares map_hex "colours as RRGGBB"
+draw map_types -c $camera --color=type --colormap=hex.map row.xyz
+draw map_none -c $camera --color=type row.xyz
+same map_types map_none "a map changes the colours of types"
+if command -v oiiotool >/dev/null 2>&1; then
+    oiiotool --diff --fail 0.01 "$tmp/map_shares.png" "$tmp/map_long.png" >/dev/null || fail "a long map is another one"
+fi
 # What is seen through: by element, type or formula, the last that fits.
 draw faded -c $camera --opacity O=0.4 row.xyz
 differs soft faded --opacity
