@@ -4,6 +4,7 @@
  * Bonds by ids. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_bonds.h"
+#include "data/bond_guess.h"
 #include "trajectory/trajectory_internal.h"
 
 #include <inttypes.h>
@@ -71,29 +72,6 @@ uint32_t bond_list_find(const bond_list *b, uint32_t id)
     return low < b->keys && b->key[low].id == id ? b->key[low].index : BOND_NONE;
 }
 
-static int compare_pairs(const void *a, const void *b)
-{
-    const uint32_t *const left = a, *const right = b;
-    const int i = left[0] == right[0];
-    return (left[i] > right[i]) - (left[i] < right[i]);
-}
-
-/* Sorts the first `count` pairs, and leaves one of each. */
-static void sort_pairs(bond_list *b, size_t count)
-{
-    if (count > 1)
-        qsort(b->pair, count, 2 * sizeof *b->pair, compare_pairs);
-    size_t unique = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (unique > 0 && compare_pairs(b->pair + 2 * (unique - 1), b->pair + 2 * i) == 0)
-            continue;
-        b->pair[2 * unique] = b->pair[2 * i];
-        b->pair[2 * unique + 1] = b->pair[2 * i + 1];
-        unique++;
-    }
-    b->count = unique;
-}
-
 /* The smaller index first; files such as .pdb name each bond from both ends. */
 static int resolve(cgt_trajectory *t, bond_list *b, int leaves_out)
 {
@@ -113,21 +91,13 @@ static int resolve(cgt_trajectory *t, bond_list *b, int leaves_out)
             kept++;
         }
     }
-    sort_pairs(b, kept);
+    b->count = cgt_sort_bonds(b->pair, kept);
     return 1;
 }
 
 /* ---- Of many bonds those of a frame -------------------------------------------------------------------------- */
 
-void bond_list_sort(bond_list *b)
-{
-    for (size_t i = 0; i < b->count; i++) {
-        uint32_t *const pair = b->pair + 2 * i, first = pair[0];
-        pair[0] = pair[1] < first ? pair[1] : first;
-        pair[1] = pair[1] < first ? first : pair[1];
-    }
-    sort_pairs(b, b->count);
-}
+void bond_list_sort(bond_list *b) { b->count = cgt_sort_bonds(b->pair, b->count); }
 
 /* The first of sorted pairs that is not before this one. */
 static size_t find_pair(const uint32_t *pairs, size_t count, uint32_t first, uint32_t second)
@@ -136,7 +106,7 @@ static size_t find_pair(const uint32_t *pairs, size_t count, uint32_t first, uin
     size_t low = 0, high = count;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
-        if (compare_pairs(pairs + 2 * middle, wanted) < 0)
+        if (cgt_compare_bonds(pairs + 2 * middle, wanted) < 0)
             low = middle + 1;
         else
             high = middle;
