@@ -75,6 +75,10 @@ int cgt_figure_open(cgt_figure *figure)
         if (!sequence->tracker)
             return cgt_figure_fail(figure, "out of memory");
     }
+    sequence->atoms.type = o->particles.types;
+    sequence->atoms.types = o->particles.type_count;
+    sequence->atoms.keeps_radii = figure->keeps_radii;
+    sequence->atoms.wants_bonds = cgt_figure_options_need_bonds(o);
     sequence->wants_kinds = has_legend(figure);
     figure->categories.takes_numbers = o->by == COLORING_CATEGORY;
     sequence->categories = o->by == COLORING_CATEGORY || may_have_words(figure) ? &figure->categories : NULL;
@@ -254,7 +258,8 @@ int cgt_figure_check_bonds(const figure_options *o, const cgt_trajectory_frame *
     if (!asks || frame->kind == CGT_TRAJECTORY_TRIANGLES)
         return 0;
     if (frame->bond_source == CGT_TRAJECTORY_BONDS_UNKNOWN && strcmp(asks, "--bonds") == 0) {
-        snprintf(text, size, "--bonds: the file has no bonds; give the longest distance of two that are bonded");
+        snprintf(text, size, "--bonds: the file has no bonds; give the longest distance of two that are bonded%s",
+                 frame->type ? ", or the elements of its types by --type-element" : "");
         return -1;
     }
     if (frame->bond_source == CGT_TRAJECTORY_BONDS_GUESSED)

@@ -36,6 +36,7 @@ struct cgt_figure {
     bool (*stop)(const void *user); /* asked while a picture is made; NULL: nothing is */
     const void *stop_user;
     int has_origin;        /* it was given: none is chosen */
+    int keeps_radii;       /* of the data: nobody chose them by a format */
     figure_settings given; /* what <cgt/figure.h> made the options from */
     figure_data mesh;      /* that stands still; without triangles: there is none */
     notices notices;       /* what a user should read */

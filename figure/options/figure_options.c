@@ -32,6 +32,11 @@ static void take_style(picture_options *o)
         memcpy(o->background, s->background, sizeof s->background);
 }
 
+int cgt_figure_options_need_bonds(const figure_options *o)
+{
+    return (o->particles.bonds && !(o->particles.bond_distance > 0.0f)) || o->whole || o->unwrap;
+}
+
 int cgt_picture_options_have_overlay(const picture_options *o)
 {
     return o->title || o->time || o->bar || o->legend || o->axes;

@@ -13,6 +13,7 @@
 
 #include "color/coloring.h"
 #include "data/particles.h"
+#include "sequence/frame_atoms.h"
 #include "style.h"
 #include "camera/camera_keys.h"
 
@@ -67,6 +68,8 @@ typedef struct particle_options {
     uint32_t radius_count, color_count;
     particle_name names[PARTICLE_KINDS];
     uint32_t name_count;
+    atom_type types[FRAME_ATOM_TYPES]; /* that are elements */
+    uint32_t type_count;
     uint32_t images[3];
     int box;
     float box_radius; /* 0: by the box's size */
@@ -191,6 +194,9 @@ void cgt_figure_options_axes(figure_options *o, cgt_trajectory_kind kind);
 
 /* The layer of an opacity above 0, which is made where there is none; UINT32_MAX: there is no room for it. */
 uint32_t cgt_particle_options_layer(particle_options *options, float opacity);
+
+/* Whether all bonds of frames are asked for, guessed ones, too. */
+int cgt_figure_options_need_bonds(const figure_options *o);
 
 /* Whether anything lies over the picture. */
 int cgt_picture_options_have_overlay(const picture_options *options);

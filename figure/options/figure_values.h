@@ -35,7 +35,8 @@ option_parser cgt_parse_sun, cgt_parse_lamp;       /* picture_options */
 /* ---- particle_values.c --------------------------------------------------------------------------------------- */
 
 option_parser cgt_parse_show, cgt_parse_hide, cgt_parse_slice, cgt_parse_cut; /* particle_options, and the next ones */
-option_parser cgt_parse_type_radius, cgt_parse_type_color, cgt_parse_type_name, cgt_parse_opacity;
+option_parser cgt_parse_type_radius, cgt_parse_type_color, cgt_parse_type_name, cgt_parse_type_element;
+option_parser cgt_parse_opacity;
 option_parser cgt_parse_formula, cgt_parse_images; /* const char *, uint32_t[3] */
 option_parser cgt_parse_material;                  /* bounce_options */
 option_parser cgt_parse_floor;                     /* floor_options */

@@ -71,6 +71,11 @@ const option_row cgt_figure_rows[] = {
      "following "
      "them from frame to frame; in the first one molecules are put together by bonds",
      FLAG(unwrap)},
+    {"type-element", 0, "TYPE=ELEMENT,...",
+     "Which element a type is, by its number, where the file does not tell: 1=O,2=H. Radii, colours, bonds and "
+     "formulas "
+     "follow",
+     PARSED(particles, cgt_parse_type_element), .repeats = 1},
     {"whole", 0, NULL, "Put molecules together that the periodic box cuts, by bonds, each with its middle in the box",
      FLAG(whole)},
     {.help = "Style and light:", .group = 10},

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "options/numbers.h"
+#include "options/option_row.h"
 #include "data/element_symbols.h"
 
 /* ---- Which spheres ------------------------------------------------------------------------------------------- */
@@ -229,6 +230,31 @@ int cgt_parse_type_name(const char *text, void *to, char *error, size_t size)
     if (!name.name)
         return -1;
     o->names[o->name_count++] = name;
+    return 0;
+}
+
+/* TYPE=ELEMENT, several with commas between them. */
+int cgt_parse_type_element(const char *text, void *to, char *error, size_t size)
+{
+    particle_options *o = to;
+    atom_type next[FRAME_ATOM_TYPES];
+    uint32_t count = o->type_count;
+    char item[OPTION_ITEM_SIZE], type[TYPE_SIZE];
+    memcpy(next, o->types, sizeof next);
+    while (cgt_option_next(&text, item)) {
+        if (count == FRAME_ATOM_TYPES)
+            return refuse_more(FRAME_ATOM_TYPES, error, size);
+        atom_type *const added = &next[count];
+        const char *const symbol = split_type(item, "TYPE=ELEMENT", type, error, size);
+        if (!symbol || cgt_read_u32(type, 0, UINT32_MAX, &added->type, error, size))
+            return -1;
+        added->element = (uint8_t)element_named(symbol);
+        if (!added->element)
+            return cgt_refuse(error, size, "\"%s\" is no chemical element", symbol);
+        count++;
+    }
+    memcpy(o->types, next, sizeof next);
+    o->type_count = count;
     return 0;
 }
 

@@ -48,6 +48,8 @@ int cgt_frame_sequence_place(frame_sequence *s, cgt_trajectory_frame *frame, int
                              size_t error_size)
 {
     *endless = 0;
+    if (cgt_frame_atoms_complete(&s->atoms, frame, error, error_size))
+        return -1;
     return s->unwrap ? cgt_unwrap_frame(s->unwrap, frame, endless, error, error_size) : 0;
 }
 
@@ -104,6 +106,7 @@ void cgt_frame_sequence_restart(frame_sequence *s)
 
 void cgt_frame_sequence_close(frame_sequence *s)
 {
+    cgt_frame_atoms_free(&s->atoms);
     cgt_unwrap_release(s->unwrap);
     cgt_speed_release(s->tracker);
     cgt_trail_history_release(s->trails);

@@ -12,6 +12,7 @@
 #include "color/categories.h"
 #include "data/expression.h"
 #include "data/particles.h"
+#include "sequence/frame_atoms.h"
 #include "sequence/trail_history.h"
 #include "data/frame_access.h"
 #include "sequence/unwrap.h"
@@ -22,6 +23,7 @@ enum { SEQUENCE_FORMULAS = 8 };
 
 /* All zero at first: frames are taken as they are. */
 typedef struct frame_sequence {
+    frame_atoms atoms;          /* of each frame; what it asks for is the caller's */
     unwrapping *unwrap;         /* of each frame; NULL: places are those of the data */
     speed_tracker *tracker;     /* NULL: no speeds; the caller's to set, and freed here */
     trail_history *trails;      /* places in the frames before; NULL: none; as the tracker */
@@ -45,7 +47,7 @@ int cgt_frame_sequence_unwrap(frame_sequence *s, unwrap_mode mode, char *error, 
 /* The columns that frames must have, of those the data have: copies at most `most` names, and returns how many. */
 size_t cgt_frame_sequence_columns(const frame_sequence *s, const char **names, size_t most);
 
-/* Puts the molecules of a frame together: it may be that of the sequence, or the second one, for a look ahead. *endless
+/* Makes the frame's spheres atoms, and puts its molecules together: it may be that of the sequence, or the second one, for a look ahead. *endless
  * becomes 1 where a molecule is bonded to its own image. Returns 0, or -1 with a text. */
 int cgt_frame_sequence_place(frame_sequence *s, cgt_trajectory_frame *frame, int *endless, char *error,
                              size_t error_size);

@@ -65,7 +65,8 @@ typedef struct cgt_figure_triangles {
     cgt_array corners;
 } cgt_figure_triangles;
 
-/* Two particles each, once each. count 0 and ends not NULL: it is known that there are none. */
+/* Two particles each, once each. count 0 and ends not NULL: it is known that there are none. ends NULL (default): where
+ * options ask for bonds they are guessed by the covalent radii of the column element, as cgt-render does for files. */
 typedef struct cgt_figure_bonds {
     uint32_t count;
     const uint32_t *ends;

@@ -150,6 +150,7 @@ static int open_figure(renderer *r)
     figure->stop = stop_flag_is_set;
     figure->stop_user = r->stop;
     figure->has_origin = r->options.reading.has_origin;
+    figure->keeps_radii = r->options.reading.radius > 0.0f;
     return render_result(r, cgt_figure_open(figure));
 }
 
@@ -164,7 +165,7 @@ static int open_first(renderer *r)
     /* which read the input twice */
     o->reading.keep =
         cgt_figure_needs_frames(&r->figure, o->output.survey) > 0 || needs_count(o) || r->figure.sequence.tracker;
-    o->reading.all_bonds = (f->particles.bonds && !(f->particles.bond_distance > 0.0f)) || f->whole || f->unwrap;
+    o->reading.all_bonds = cgt_figure_options_need_bonds(f);
     o->reading.leave_out_sites = !shows_sites(f);
     o->reading.stop = stop_flag_is_set;
     o->reading.stop_user = r->stop;

@@ -96,6 +96,7 @@ both cube.obj
 both cube.obj bounces=4 material=all=glass floor
 both caffeine.xyz bonds radius-scale=0.3 outline
 both words.xyz color=site_of type-color=kx=black
+both grains.lammpstrj type-element=1=Cs,2=K type-element=3=Ba bonds radius-by=0.3 hide=Ba
 both grains.lammpstrj opacity=2=0.3 'opacity=c_pe > 4=0.5' bonds=1.9 images=2,1,1 hide=1
 both grains.lammpstrj opacity=1=0.25 opacity=bonds=0.5 bonds=1.9 trails=2 radius-scale=0.5 box outline
 both grains.lammpstrj opacity=3=0.5 mesh=cube.obj mesh-opacity=0.4 style=plain

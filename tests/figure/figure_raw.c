@@ -145,7 +145,8 @@ int main(int argc, char **argv)
     }
     cgt_trajectory_options reading;
     cgt_trajectory_options_init(&reading);
-    reading.all_bonds = reading.leave_out_sites = true; /* as cgt-render asks for them */
+    reading.leave_out_sites = true;     /* as cgt-render has it */
+    reading.all_bonds = !gives_columns; /* of columns the figure guesses them */
     if (cgt_trajectory_open(argv[2], &reading, &file) || want_columns(file))
         return fail_file(file);
     for (int turn = 0; turn < 2; turn++) { /* look at all, show each */

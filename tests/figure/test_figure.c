@@ -84,7 +84,7 @@ TEST(options_have_names_and_kinds)
             assert_string_not_equal(other.name, option.name);
         }
     }
-    assert_true(count > 60 && lists > 5 && repeating == 11);
+    assert_true(count > 60 && lists > 5 && repeating == 12);
     assert_false(cgt_figure_get_option(UINT32_MAX, &option));
 }
 
@@ -305,6 +305,40 @@ TEST(categories_have_colours)
     assert_int_equal(cgt_figure_set(figure, "category", "kin"), CGT_OK);
     assert_int_equal(cgt_figure_show(figure, &data), CGT_ERROR_INVALID_ARGUMENT);
     expect_message(figure, "has no column \"kin\", but x, y, z, type, kind, half");
+    cgt_figure_release(figure);
+}
+
+/* A chain of carbon: bonds of columns are guessed as those of files are; types may be elements. */
+TEST(bonds_are_guessed)
+{
+    static float chain[4][3] = {{0.0f, 0.0f, 0.0f}, {1.5f, 0.0f, 0.0f}, {3.0f, 0.0f, 0.0f}, {6.0f, 0.0f, 0.0f}};
+    static const uint32_t ends[] = {0, 1, 1, 2};
+    static const uint8_t carbon[] = {6, 6, 6, 6}, types[] = {9, 9, 9, 9};
+    cgt_figure_column column = {.name = "element", .values = cgt_uint8s(carbon, 0)};
+    cgt_figure_data data = {.points = {4, cgt_floats(chain[0], 0), &column, 1, 0.0f}, .bonds = {2, ends}};
+    uint8_t listed[BYTES], drawn[BYTES];
+    cgt_figure *const figure = make_figure();
+    assert_int_equal(cgt_figure_set(figure, "bonds", NULL), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "radius-scale", "0.2"), CGT_OK);
+    draw(figure, &data, listed);
+    data.bonds.count = 0; /* it is known that there are none */
+    draw(figure, &data, drawn);
+    assert_memory_not_equal(drawn, listed, sizeof drawn);
+    data.bonds.ends = NULL;
+    assert_int_equal(cgt_figure_unset(figure, "color"), CGT_OK); /* a run of its own */
+    draw(figure, &data, drawn);
+    assert_memory_equal(drawn, listed, sizeof drawn);
+    assert_non_null(strstr(cgt_figure_take_notice(figure), "guessed by the covalent radii"));
+    column = (cgt_figure_column){.name = "type", .values = cgt_uint8s(types, 0)};
+    assert_int_equal(cgt_figure_unset(figure, "color"), CGT_OK);
+    assert_int_equal(cgt_figure_show(figure, &data), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "or the elements of its types by --type-element");
+    assert_int_equal(cgt_figure_set(figure, "type-element", "3=H,9=C"), CGT_OK);
+    draw(figure, &data, drawn);
+    assert_memory_equal(drawn, listed, sizeof drawn);
+    data.points.column_count = 0;
+    assert_int_equal(cgt_figure_show(figure, &data), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "--type-element: frame 0 has no types");
     cgt_figure_release(figure);
 }
 

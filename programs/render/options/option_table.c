@@ -61,6 +61,7 @@ static const option_row rows[] = {
     {"wrapped", 0, NULL, "Prefer coordinates wrapped into the box where a file has both kinds",
      AT(BOOL, reading.wrapped)},
     {"unwrap", .type = OPTION_FIGURE},
+    {"type-element", .type = OPTION_FIGURE},
     {"whole", .type = OPTION_FIGURE},
     {"fps", 0, "N", "Frames per second of a mesh's animation; default 30", DOUBLE(reading.fps, 1e-3f, 1e6f)},
     {"clip", 0, "NAME", "Animation of a mesh, by its name or its number from 0; default: the first",

@@ -228,6 +228,18 @@ refuses 1 'no column "resname", by which to know water, but x, y, z' --hide wate
 refuses 2 '--show: ' --show 'charge >' row.xyz
 refuses 1 'no column "mass", but x, y, z' --show 'mass > 1' row.xyz
 refuses 2 '--type-color: ' --type-color Xx=red row.xyz
+# Types that are elements: as if the dump had told.
+dump 'element x y z' '1 1 O 2 2 2' '2 2 H 2.96 2 2' '3 2 H 1.76 2.93 2' '4 3 Ar 7.7 4 4' >"$tmp/told.lammpstrj"
+dump 'x y z' '1 1 2 2 2' '2 2 2.96 2 2' '3 2 1.76 2.93 2' '4 3 7.7 4 4' >"$tmp/typed.lammpstrj"
+refuses 1 'has no bonds; give .*, or the elements of its types by --type-element' --bonds typed.lammpstrj
+for options in '' '--bonds --radius-scale=0.4' '--hide=H --color=element' '--whole --bonds=1' '-r 0.7'; do
+    draw told $options told.lammpstrj
+    draw typed $options --type-element 1=O,2=H --type-element 3=Ar typed.lammpstrj
+    same told typed "--type-element $options"
+done
+refuses 2 '--type-element: ' --type-element 1=Xx typed.lammpstrj
+refuses 2 '--type-element: ' --type-element O=1 typed.lammpstrj
+refuses 2 '--type-element: ' --type-element 1 typed.lammpstrj
 # Maps of one's own: from black to white and on to red, in four spellings.
 printf '0 0 0\n1,1,1\n1.0\t0\t0\n' >"$tmp/shares.map"
 printf '\357\273\277# black, white, red\r\n  0 0 0\r\n\r\n255 255 255\r\n255 0 0' >"$tmp/bytes.map"
