@@ -109,6 +109,23 @@ static void add_ray(const draw_ray_light *light, pixel_sum *sum)
     }
 }
 
+/* Adds the rays of a row that go through layers, `count` from ray x on, n to a pixel. */
+static void add_layered_rays(const drawing *d, uint32_t x, uint32_t y, uint32_t count, const draw_means *means,
+                             uint32_t n, pixel_sum *sum)
+{
+    const uint32_t *const primitive = d->primitive + (size_t)y * d->ray_width + x;
+    draw_ray_light light[DRAW_BLOCK];
+    for (uint32_t i = 0; i < count; i++)
+        if (primitive[i] != CGT_INVALID_ID)
+            cgt_draw_shade_ray(d, x, y, means, i, &light[i]);
+        else
+            light[i] = (draw_ray_light){.depth = INFINITY, .id = CGT_INVALID_ID};
+    cgt_draw_mix_layers(d, x, y, count, light);
+    for (uint32_t i = 0; i < count; i++)
+        if (light[i].cover > 0.0f)
+            add_ray(&light[i], &sum[i / n]);
+}
+
 /* Adds the rays of `pixels` pixels of a row, from px on, ray row by ray row. */
 static void add_rays(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels, pixel_sum *sum)
 {
@@ -118,18 +135,17 @@ static void add_rays(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels
         sum[i] = (pixel_sum){.depth = INFINITY, .id = CGT_INVALID_ID};
     for (uint32_t y = py * n; y < (py + 1) * n; y++) {
         const uint32_t *primitive = d->primitive + (size_t)y * d->ray_width + (size_t)px * n;
-        draw_ray_light light[DRAW_BLOCK];
         cgt_draw_smooth(d, px * n, y, pixels * n, &means);
+        if (d->layers) {
+            add_layered_rays(d, px * n, y, pixels * n, &means, n, sum);
+            continue;
+        }
         for (uint32_t i = 0; i < pixels * n; i++)
-            if (primitive[i] != CGT_INVALID_ID)
-                cgt_draw_shade_ray(d, px * n, y, &means, i, &light[i]);
-            else
-                light[i] = (draw_ray_light){.depth = INFINITY, .id = CGT_INVALID_ID};
-        if (d->layers)
-            cgt_draw_mix_layers(d, px * n, y, pixels * n, light);
-        for (uint32_t i = 0; i < pixels * n; i++)
-            if (light[i].cover > 0.0f)
-                add_ray(&light[i], &sum[i / n]);
+            if (primitive[i] != CGT_INVALID_ID) {
+                draw_ray_light light;
+                cgt_draw_shade_ray(d, px * n, y, &means, i, &light);
+                add_ray(&light, &sum[i / n]);
+            }
     }
 }
 
