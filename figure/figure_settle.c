@@ -225,6 +225,8 @@ int cgt_figure_choose_colors(cgt_figure *figure)
         min = (double)(float)min;
         max = (double)(float)max;
     }
+    if (is_words)
+        min = max = 0.0;
     const int is_chosen = o->by == COLORING_AUTO && by == COLORING_ID;
     if ((is_chosen || by == COLORING_SPEED) && cgt_coloring_has_jumps(&figure->survey))
         cgt_notices_add(&figure->notices,

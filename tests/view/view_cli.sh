@@ -166,6 +166,30 @@ settle
 END
 same view_0000.png
 says out '--color=q --range=[0-9],29[0-9] '
+# Words have the colours that they have in cgt-render, with a legend; numbers and what is seen through, too.
+awk 'BEGIN { print 60; print "Properties=species:S:1:pos:R:3:part:S:1"
+    for (i = 0; i < 60; i++) print "C", i % 10, int(i / 10), i % 3, substr("hbx", int(i / 20) + 1, 1) }' >"$tmp/parts.xyz"
+rm -f "$tmp"/view_*
+view 0 --style plain parts.xyz --colorbar --opacity 'part == b=0.4' <<'END'
+settle
+key l
+key Up
+key Up
+key Return
+settle
+key s
+settle
+END
+same view_0000.png
+says out '--color=part '
+rm -f "$tmp"/view_*
+view 0 --category 'floor(x / 4)' --type-color 1=red --legend --bonds=1.5 --opacity C=0.5 parts.xyz <<'END'
+settle
+key s
+settle
+END
+same view_0000.png
+says out "'--category=floor(x / 4)' --first"
 
 # Time: it begins with frame 3, the first that has something; steps, jumps: each is the frame that was asked for.
 view 0 "$pour" <<'END'
