@@ -46,7 +46,8 @@ int64_t cgt_categories_number(const categories *c, double value, int *is_known);
 /* Looks at spheres of the frame that was taken last for what is shown; show: NULL: all are. */
 void cgt_categories_look(categories *c, const expression *formula, const expression *show, uint32_t count);
 
-/* The c->shown.count numbers that are shown, in their order, but 0 of words last; to be freed. NULL: none, or no memory. */
+/* The c->shown.count numbers that are shown, in their order, but 0 of words last; to be freed. NULL: none, or no
+ * memory. */
 int64_t *cgt_categories_sort(const categories *c);
 
 /* The number of a word, or of digits where there are no words. Returns 0, or -1: the run has no such word so far. */

@@ -78,9 +78,10 @@ static void set_table(color_table *table, const table_file *file)
 {
     const float scale = file->is_hexadecimal || file->largest > 1.0f ? 1.0f : 255.0f;
     table->count = file->count < COLOR_TABLE_MOST ? file->count : COLOR_TABLE_MOST;
+    const uint32_t last = table->count > 1 ? table->count - 1 : 1;
     for (uint32_t i = 0; i < table->count; i++) {
-        const uint64_t at = (uint64_t)i * (file->count - 1), whole = at / (table->count - 1);
-        const float f = (float)(at % (table->count - 1)) / (float)(table->count - 1);
+        const uint64_t at = (uint64_t)i * (file->count - 1), whole = at / last;
+        const float f = (float)(at % last) / (float)last;
         for (int c = 0; c < 3; c++) {
             const float next = whole + 1 < file->count ? file->rgb[whole + 1][c] : 0.0f;
             table->srgb[i][c] = (uint8_t)(scale * ((1.0f - f) * file->rgb[whole][c] + f * next) + 0.5f);

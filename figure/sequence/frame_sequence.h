@@ -47,8 +47,8 @@ int cgt_frame_sequence_unwrap(frame_sequence *s, unwrap_mode mode, char *error, 
 /* The columns that frames must have, of those the data have: copies at most `most` names, and returns how many. */
 size_t cgt_frame_sequence_columns(const frame_sequence *s, const char **names, size_t most);
 
-/* Makes the frame's spheres atoms, and puts its molecules together: it may be that of the sequence, or the second one, for a look ahead. *endless
- * becomes 1 where a molecule is bonded to its own image. Returns 0, or -1 with a text. */
+/* Makes the frame's spheres atoms, and puts its molecules together: it may be that of the sequence, or the second one,
+ * for a look ahead. *endless becomes 1 where a molecule is bonded to its own image. Returns 0, or -1 with a text. */
 int cgt_frame_sequence_place(frame_sequence *s, cgt_trajectory_frame *frame, int *endless, char *error,
                              size_t error_size);
 

@@ -29,8 +29,8 @@ CGT_API const cgt_colormap *cgt_find_colormap(const char *name);
  *   srgb   gets sRGB, 0 to 1, as in the next three */
 CGT_API void cgt_get_map_color(const cgt_colormap *map, float x, float srgb[3]);
 
-/* Gets the colour of a kind, from 1, such as LAMMPS' types: 8 colours that everyone can tell apart and 8 more, again and
- * again. */
+/* Gets the colour of a kind, from 1, such as LAMMPS' types: 8 colours that everyone can tell apart and 8 more, again
+ * and again. */
 CGT_API void cgt_get_type_color(uint32_t type, float srgb[3]);
 
 /* Gets the colour of an element by its atomic number, Jmol's; of 0 and of numbers beyond 109 a light pink. */

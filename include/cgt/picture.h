@@ -131,11 +131,11 @@ typedef struct cgt_picture_lighting {
     uint32_t light_samples;
 } cgt_picture_lighting;
 
-/* Geometries that are seen through: a skin, of which the eye sees the nearest side alone, however many surfaces of it lie
- * behind that. */
+/* Geometries that are seen through: a skin, of which the eye sees the nearest side alone, however many surfaces of it
+ * lie behind that. */
 typedef struct cgt_picture_layer {
-    uint32_t
-        mask; /* geometries whose mask has one of these bits are in the layer; those of no layer have none of them */
+    /* Geometries whose mask has one of these bits are in the layer; those of no layer have none of them. */
+    uint32_t mask;
     float opacity; /* how much of what is behind it covers; 0 (default): 1 */
 } cgt_picture_layer;
 
@@ -224,8 +224,8 @@ typedef struct cgt_picture cgt_picture;
  * Memory:  the C library's. PLAIN: 10 KB. BOUNCES: 20 bytes a ray, and 3.3 MB + 1.4 MB * (bounces + 1) for each thread
  *          while it traces. Else 24 bytes a ray (a pixel has antialias * antialias), 8 more from the first
  *          picture with triangles, 4 with ambient occlusion, 8 after two steps of it, 1 for each hard light with
- *          shadows, 4 for each soft one, all of it again for each layer; during a step with soft lights 600 bytes for each ray
- *          of a row, times its samples
+ *          shadows, 4 for each soft one, all of it again for each layer; during a step with soft lights 600 bytes for
+ *          each ray of a row, times its samples
  * Threads: one at a time uses a picture; several pictures may be made of one scene at once
  * Errors:  INVALID_ARGUMENT, OUT_OF_MEMORY, TOO_LARGE */
 CGT_API cgt_result cgt_picture_create(cgt_context *context, const cgt_picture_options *options, cgt_picture **picture);

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What is seen through: each layer is a frame of its own, whose hits lie in front of what is opaque. A ray's light is that
- * of the layers it goes through and of what is behind them, from the farthest to the nearest (Porter, Duff, "Compositing
- * Digital Images", SIGGRAPH 1984: each over what is behind it). */
+ * What is seen through: each layer is a frame of its own, whose hits lie in front of what is opaque. A ray's light is
+ * that of the layers it goes through and of what is behind them, from the farthest to the nearest (Porter, Duff,
+ * "Compositing Digital Images", SIGGRAPH 1984: each over what is behind it). */
 #include <math.h>
 #include <string.h>
 
@@ -25,10 +25,11 @@ static void hide_row(void *argument, uint32_t index)
 cgt_result cgt_draw_hide_layer(drawing *d) { return cgt_context_run_tasks(d->context, hide_row, d, d->ray_rows); }
 
 /* Puts a ray's layer before those that are farther off. */
-static void insert(uint8_t order[CGT_PICTURE_MAX_LAYERS], uint32_t count, uint8_t layer, const float *depth)
+static void insert(uint8_t order[CGT_PICTURE_MAX_LAYERS], uint32_t count, uint8_t layer, uint32_t ray,
+                   const draw_ray_light of[CGT_PICTURE_MAX_LAYERS][DRAW_BLOCK])
 {
     uint32_t at = count;
-    for (; at > 0 && depth[order[at - 1]] > depth[layer]; at--)
+    for (; at > 0 && of[order[at - 1]][ray].depth > of[layer][ray].depth; at--)
         order[at] = order[at - 1];
     order[at] = layer;
 }
@@ -47,23 +48,22 @@ void cgt_draw_mix_layers(const drawing *d, uint32_t x, uint32_t y, uint32_t coun
 {
     const cgt_picture_layer *const style = d->options->style.layers;
     draw_ray_light of[CGT_PICTURE_MAX_LAYERS][DRAW_BLOCK];
-    const size_t first = (size_t)y * d->ray_width + x;
     draw_means means;
     for (uint32_t l = 0; l < d->layers; l++) {
+        const uint32_t *const primitive = d->layer[l].primitive + (size_t)y * d->ray_width + x;
         cgt_draw_smooth(&d->layer[l], x, y, count, &means);
         for (uint32_t i = 0; i < count; i++)
-            if (d->layer[l].primitive[first + i] != CGT_INVALID_ID)
+            if (primitive[i] != CGT_INVALID_ID)
                 cgt_draw_shade_ray(&d->layer[l], x, y, &means, i, &of[l][i]);
+            else
+                of[l][i] = (draw_ray_light){.cover = 0.0f};
     }
     for (uint32_t i = 0; i < count; i++) {
         uint8_t order[CGT_PICTURE_MAX_LAYERS];
-        float depth[CGT_PICTURE_MAX_LAYERS];
         uint32_t hits = 0;
-        for (uint32_t l = 0; l < d->layers; l++) {
-            depth[l] = d->layer[l].t[first + i];
-            if (d->layer[l].primitive[first + i] != CGT_INVALID_ID)
-                insert(order, hits++, (uint8_t)l, depth);
-        }
+        for (uint32_t l = 0; l < d->layers; l++)
+            if (of[l][i].cover > 0.0f)
+                insert(order, hits++, (uint8_t)l, i, of);
         while (hits-- > 0)
             lay_over(&light[i], &of[order[hits]][i], style[order[hits]].opacity);
     }

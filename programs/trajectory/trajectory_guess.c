@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Bonds that files do not list, by the rule of bond_guess.h. Where a format lists some bonds, as .pdb does, those within
- * amino acids, nucleotides and water are guessed nevertheless, and so are those of any other residue of which it lists
- * none; what it lists is added. Two of the places that an atom may have are never bonded. */
+ * Bonds that files do not list, by the rule of bond_guess.h. Where a format lists some bonds, as .pdb does, those
+ * within amino acids, nucleotides and water are guessed nevertheless, and so are those of any other residue of which it
+ * lists none; what it lists is added. Two of the places that an atom may have are never bonded. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_guess.h"
 #include "data/bond_guess.h"
