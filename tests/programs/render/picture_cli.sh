@@ -205,6 +205,14 @@ printf '2\nangstrom\nC 0 0 0\nC 1.5 0 0\n' >"$tmp/angstrom.xyz"
 draw nanometres -c 0.07,0,1,0.07,0,0,0,1,0,30 --style=plain --radius-scale=0.2 --bonds nm.gro
 draw angstrom -c 0.7,0,10,0.7,0,0,0,1,0,30 --style=plain --radius-scale=0.2 --bonds angstrom.xyz
 same nanometres angstrom "bonds of a file in nanometres"
+{ cat "$tmp/nm.gro" && sed 's/0\.000$/0.050/' "$tmp/nm.gro"; } >"$tmp/nm_run.gro"
+{ cat "$tmp/angstrom.xyz" && sed 's/ 0$/ 0.5/' "$tmp/angstrom.xyz"; } >"$tmp/angstrom_run.xyz"
+draw nm_run -c 0.07,-1,0.5,0.07,0,0,0,0,1,30 --style=plain --radius-scale=0.2 --arrows 0,0,0.1 --trails 1 --first 1 nm_run.gro
+draw angstrom_run -c 0.7,-10,5,0.7,0,0,0,0,1,30 --style=plain --radius-scale=0.2 --arrows 0,0,1 --trails 1 --first 1 \
+    angstrom_run.xyz
+same nm_run angstrom_run "arrows and trails of a file in nanometres"
+draw nm_bare -c 0.07,-1,0.5,0.07,0,0,0,0,1,30 --style=plain --radius-scale=0.2 --arrows 0,0,0.1 --first 1 nm_run.gro
+differs nm_run nm_bare "--trails in nanometres"
 for scale in 1 1000; do
     printf '2\nProperties=species:S:1:pos:R:3:radius:R:1\n1 0 0 0 %s\n2 %s 0 0 %s\n' $((2 * scale)) $((4 * scale)) \
         $((3 * scale)) >"$tmp/by$scale.xyz"
