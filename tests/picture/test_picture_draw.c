@@ -32,6 +32,21 @@ static const float palette[3] = {0.5f, 0.25f, 0.125f};
 static const uint32_t floor_index[6] = {0, 1, 2, 0, 2, 3};
 static const float floor_corner[12] = {-8, -8, 0, 8, -8, 0, 8, 8, 0, -8, 8, 0};
 
+/* Ball and floor, with a mask. */
+static void set_opaque(stage *s, uint32_t mask)
+{
+    const int is_new = cgt_scene_get_geometries(s->scene) == 0;
+    const cgt_spheres spheres = {
+        .count = 2, .centers = cgt_floats(s->ball[0], 16), .radii = cgt_floats(s->ball[0] + 3, 16), .mask = mask};
+    const cgt_triangles triangles = {.count = 2,
+                                     .indices = cgt_uint32s(floor_index, 0),
+                                     .vertex_count = 4,
+                                     .vertices = cgt_floats(floor_corner, 0),
+                                     .mask = mask};
+    assert_int_equal(cgt_scene_set_spheres(s->scene, is_new ? NULL : &(uint32_t){BALL}, &spheres), CGT_OK);
+    assert_int_equal(cgt_scene_set_triangles(s->scene, is_new ? NULL : &(uint32_t){FLOOR}, &triangles), CGT_OK);
+}
+
 static void set_up(stage *s, uint32_t threads, const char *variant)
 {
     const cgt_context_options options = {.threads = threads, .variant = variant};
@@ -46,12 +61,7 @@ static void set_up(stage *s, uint32_t threads, const char *variant)
         .light = {.kind = CGT_LIGHT_DIRECTIONAL, .position = {0, 0, 1}}, .color = {1.0f, 1.0f, 1.0f}};
     assert_int_equal(cgt_context_create(&options, &s->context), CGT_OK);
     assert_int_equal(cgt_scene_create(s->context, NULL, &s->scene), CGT_OK);
-    const cgt_spheres spheres = {
-        .count = 2, .centers = cgt_floats(s->ball[0], 16), .radii = cgt_floats(s->ball[0] + 3, 16)};
-    const cgt_triangles triangles = {
-        .count = 2, .indices = cgt_uint32s(floor_index, 0), .vertex_count = 4, .vertices = cgt_floats(floor_corner, 0)};
-    assert_int_equal(cgt_scene_set_spheres(s->scene, NULL, &spheres), CGT_OK);
-    assert_int_equal(cgt_scene_set_triangles(s->scene, NULL, &triangles), CGT_OK);
+    set_opaque(s, 0);
 }
 
 /* Of ball, floor, and walls that a test adds. */
@@ -64,6 +74,7 @@ static const cgt_look looks[4] = {{.index = first_entry, .palette = palette},
 static void add_walls(stage *s, float one, float other)
 {
     static const uint16_t index[3] = {0, 1, 2};
+    set_opaque(s, 1);
     for (uint32_t k = 0; k < 2; k++) {
         const float z = k ? other : one, corner[9] = {-40.0f, -20.0f, z, 40.0f, -20.0f, z, 0.0f, 60.0f, z};
         memcpy(s->wall[k], corner, sizeof corner);

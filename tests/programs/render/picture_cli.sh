@@ -274,6 +274,16 @@ draw faded_as -c $camera --opacity 'vz != 0=0.4' row.xyz
 same faded faded_as "--opacity by a formula"
 draw faded_again -c $camera --opacity H=1 --opacity O=0.9 --opacity 'charge > 0=0.4' row.xyz
 same faded faded_again "the last --opacity does not count"
+draw faded_both -c $camera --opacity O=0.4 --opacity H=0.4 row.xyz
+draw faded_all -c $camera --opacity 'species != "C"=0.4' row.xyz
+same faded_both faded_all "the first of two --opacity does not count"
+differs faded faded_both "a second --opacity"
+printf '2\n\nO 0 0 0\nC 1.4 0 0\n' >"$tmp/bond.xyz"
+for opacity in O=0.4 C=0.4; do
+    draw mixed -c 0.7,0,9,0.7,0,0,0,1,0,30 --radius-scale=0.3 --bonds --opacity $opacity bond.xyz
+    draw mixed_as -c 0.7,0,9,0.7,0,0,0,1,0,30 --radius-scale=0.3 --bonds --opacity $opacity --opacity bonds=0.4 bond.xyz
+    same mixed mixed_as "a bond is not as transparent as the end of $opacity"
+done
 draw solid -c $camera --opacity O=0.4 --opacity O=1 row.xyz
 same soft solid "what is opaque again"
 draw unknown -c $camera --opacity 'sqrt(-charge - 9) >= 0=0.4' --opacity 'log(-1)=0.4' row.xyz
