@@ -94,7 +94,7 @@ static void select_block(particles *p, const particle_rules *r, const cgt_trajec
         memcpy(to, f->xyzr + 4 * (size_t)i, 3 * sizeof *to);
         to[3] = radius[k];
         if (r->layer)
-            p->layer[p->count] = (uint8_t)layer[k];
+            p->layer[p->count] = (uint8_t)((uint32_t)layer[k] % PARTICLE_LAYER_STEP);
         p->index[p->count] = index[i];
         p->source[p->count++] = i;
     }

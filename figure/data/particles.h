@@ -11,7 +11,7 @@
 
 #include "data/expression.h"
 
-enum { PARTICLE_KINDS = 32, PARTICLE_LAYERS = 9 };
+enum { PARTICLE_KINDS = 32, PARTICLE_LAYERS = 9, PARTICLE_LAYER_STEP = 16 };
 
 typedef struct particle_kind {
     int is_element; /* kind is an atomic number, else a type */
@@ -23,7 +23,7 @@ typedef struct particle_kind {
 
 typedef struct particle_rules {
     const expression *show;   /* spheres of value 0 or NaN are left out; NULL: none */
-    const expression *layer;  /* whose value is the layer of a sphere; NULL: all are opaque */
+    const expression *layer;  /* whose value mod PARTICLE_LAYER_STEP is a sphere's layer; NULL: all are opaque */
     const expression *radius; /* NULL: those of the file. One that is negative or NaN leaves the sphere out */
     float radius_scale;       /* of all radii; above 0 */
     particle_kind radii[PARTICLE_KINDS];

@@ -89,7 +89,8 @@ typedef struct particle_options {
     uint8_t mesh_color[3];
     float mesh_opacity; /* above 0, to 1 */
     /* What is transparent is in layers, by opacity: layer k from 1 has layers[k - 1], 0 is opaque. */
-    char opacity[2048]; /* a formula whose value is a sphere's layer; "": all are opaque */
+    char opacity[2048]; /* a formula for particle_rules.layer; "": all are opaque */
+    uint32_t opacity_count;
     uint32_t layer_count;
     float layers[CGT_PICTURE_MAX_LAYERS];
     int has_bond_layer; /* else bonds are as transparent as their ends */

@@ -260,12 +260,30 @@ int cgt_parse_type_element(const char *text, void *to, char *error, size_t size)
 
 /* ---- Opacity ------------------------------------------------------------------------------------------------- */
 
-/* WHAT=SHARE: a type, an element or a formula, whose spheres go to the layer of the share, whatever was said of them
- * before; those for which a formula is NaN do not. */
+/* Adds a condition, which is 0 or 1, to those that tell a sphere's layer: the last that holds counts, since its number
+ * is the greatest. Left to right, so that many of them take no more of an expression's stack. */
+static int add_layer(particle_options *o, const char *condition, uint32_t layer, char *error, size_t size)
+{
+    char formula[sizeof o->opacity];
+    const unsigned number = PARTICLE_LAYER_STEP * (o->opacity_count + 1) + layer;
+    const int length =
+        snprintf(formula, sizeof formula, "max(%s, (%s) * %u)", *o->opacity ? o->opacity : "0", condition, number);
+    expression *const all =
+        length > 0 && (size_t)length < sizeof formula ? cgt_expression_parse(formula, error, size) : NULL;
+    if (!all)
+        return cgt_refuse(error, size, "these are too many conditions together");
+    cgt_expression_free(all);
+    memcpy(o->opacity, formula, sizeof formula);
+    o->opacity_count++;
+    return 0;
+}
+
+/* WHAT=SHARE: a type, an element or a formula, whose spheres go to the layer of the share; those for which a formula is
+ * NaN do not. */
 int cgt_parse_opacity(const char *text, void *to, char *error, size_t size)
 {
     particle_options *o = to;
-    char what[1024], condition[1024], formula[sizeof o->opacity];
+    char what[1024], condition[1100];
     const char *const mark = strrchr(text, '=');
     const size_t length = mark ? (size_t)(mark - text) : 0;
     float share;
@@ -284,19 +302,18 @@ int cgt_parse_opacity(const char *text, void *to, char *error, size_t size)
         return 0;
     }
     const uint32_t element = element_named(what);
-    expression *const given = is_type(what) ? NULL : cgt_expression_parse(what, error, size);
-    if (!is_type(what) && !given)
-        return -1;
-    cgt_expression_free(given);
     if (element)
         snprintf(condition, sizeof condition, "element == %u", (unsigned)element);
-    else
-        snprintf(condition, sizeof condition, "%s%s", is_type(what) ? "type == " : "", what);
-    if (snprintf(formula, sizeof formula, "if(abs(%s) > 0, %u, %s)", condition, (unsigned)layer,
-                 *o->opacity ? o->opacity : "0") >= (int)sizeof formula)
-        return cgt_refuse(error, size, "the conditions are too long together");
-    memcpy(o->opacity, formula, sizeof formula);
-    return 0;
+    else if (is_type(what))
+        snprintf(condition, sizeof condition, "type == %s", what);
+    if (element || is_type(what))
+        return add_layer(o, condition, layer, error, size);
+    expression *const given = cgt_expression_parse(what, error, size); /* so that an error shows what was given */
+    if (!given)
+        return -1;
+    cgt_expression_free(given);
+    snprintf(condition, sizeof condition, "abs(%s) > 0", what);
+    return add_layer(o, condition, layer, error, size);
 }
 
 /* ---- Mirrors and glass --------------------------------------------------------------------------------------- */
