@@ -150,12 +150,42 @@ static void check_glyphs(cgt_figure *figure)
             missing, first);
 }
 
-static int choose_overlay(cgt_figure *figure)
+/* Frames with the extremes of all that were looked at: with their times, and where some are unknown without. */
+static void choose_extremes(cgt_figure *figure)
+{
+    const survey *const s = &figure->survey;
+    const survey_times *const t = &s->times;
+    const uint64_t last = s->has_total && s->total ? s->total - 1 : t->number_max;
+    overlay *const v = &figure->overlay;
+    v->time_letters = t->letters;
+    for (int known = 0; known < 2 && s->frames; known++)
+        for (int end = 0; end < 2 && (known ? t->time_min <= t->time_max : t->has_unknown); end++)
+            v->extreme[v->extremes++] = (overlay_frame){.number = end ? last : 0,
+                                                        .step = end ? t->step_max : t->step_min,
+                                                        .time = !known ? NAN
+                                                                : end  ? t->time_max
+                                                                       : t->time_min};
+}
+
+/* Tells what found no place. */
+static void tell_layout(cgt_figure *figure)
+{
+    static const char *const names[LAYOUT_ITEMS] = {"title", "time", "scale-bar", "colorbar", "legend", "axes"};
+    const layout *const l = &figure->overlay.layout;
+    for (int i = 0; i < LAYOUT_ITEMS; i++)
+        if (l->left_out >> i & 1u)
+            cgt_notices_add(&figure->notices, "--%s: there is no room for it in %" PRIu32 "x%" PRIu32 " pixels",
+                            names[i], figure->options.width, figure->options.height);
+        else if (l->cut >> i & 1u)
+            cgt_notices_add(&figure->notices, "--%s: it is too long, and cut short", names[i]);
+}
+
+int cgt_figure_choose_overlay(cgt_figure *figure)
 {
     const picture_options *o = &figure->options.picture;
     const uint8_t *back = o->background;
     overlay *v = &figure->overlay;
-    if (!cgt_picture_options_have_overlay(o))
+    if (v->font || !cgt_picture_options_have_overlay(o))
         return 0;
     v->size = fmaxf(8.0f, o->text_size * (float)figure->options.height);
     v->font = cgt_text_open(o->font, v->size, figure->message, sizeof figure->message);
@@ -173,6 +203,9 @@ static int choose_overlay(cgt_figure *figure)
     const float grey = back[0] + back[1] + back[2] > 384 ? 0.01f : 0.85f; /* dark on light, light on dark */
     for (int c = 0; c < 3; c++)
         v->color[c] = grey;
+    choose_extremes(figure);
+    cgt_overlay_place(v, figure->options.width, figure->options.height);
+    tell_layout(figure);
     return 0;
 }
 
@@ -191,7 +224,7 @@ void cgt_figure_draw_overlay(cgt_figure *figure)
 
 int cgt_figure_open_picture(cgt_figure *figure)
 {
-    if (choose_overlay(figure))
+    if (cgt_figure_choose_overlay(figure))
         return -1;
     const cgt_picture_options settings = cgt_figure_get_settings(figure);
     const cgt_result result = cgt_picture_create(figure->context, &settings, &figure->drawing);

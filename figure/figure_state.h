@@ -142,6 +142,9 @@ void cgt_figure_close(cgt_figure *figure);
 
 /* ---- From a committed scene to a picture (figure_draw.c) ---- */
 
+/* Chooses texts and their places, for the options' size, unless they are chosen: colours and survey are set. */
+int cgt_figure_choose_overlay(cgt_figure *figure);
+
 /* Chooses how pictures are made: drawing and overlay; camera, light and survey are set. */
 int cgt_figure_open_picture(cgt_figure *figure);
 void cgt_figure_close_picture(cgt_figure *figure);

@@ -9,6 +9,7 @@
 
 #include "text/canvas.h"
 #include "color/coloring.h"
+#include "text/layout.h"
 #include "text/text.h"
 
 enum { OVERLAY_MOST_KINDS = 24 }; /* of a legend: a last line says how many more there are */
@@ -19,20 +20,6 @@ typedef struct overlay_kind {
     char name[64];
 } overlay_kind;
 
-typedef struct overlay {
-    text_font *font;   /* NULL: there is no text */
-    float size;        /* of the font, in pixels */
-    float color[3];    /* linear, of text and ticks */
-    const char *title; /* NULL: none */
-    const char *time;  /* "t = {time}", "{step}", "{frame}"; NULL: none */
-    const char *bar;   /* title of the colour bar, "" for none; NULL: no bar */
-    const coloring *coloring;
-    const char *legend;        /* title of the legend, "" for none; NULL: no legend */
-    const overlay_kind *kinds; /* of the legend, from above */
-    uint32_t kind_count;
-    int axes;
-} overlay;
-
 /* A frame's numbers, and the directions of its camera: unit vectors to the right, up, and into the picture. */
 typedef struct overlay_frame {
     uint64_t number;
@@ -41,6 +28,30 @@ typedef struct overlay_frame {
     float right[3], up[3], forward[3];
 } overlay_frame;
 
+typedef struct overlay {
+    text_font *font;   /* NULL: there is no text */
+    float size;        /* of the font, in pixels */
+    float color[3];    /* linear, of text and ticks */
+    const char *title; /* NULL: none */
+    const char *time;  /* "t = {time}", "{step}", "{frame}"; NULL: none */
+    /* Numbers keep the width of the widest of the run, so that what is around them stands still: frames that have the
+     * extremes, and the most letters of {time}. */
+    overlay_frame extreme[4];
+    uint32_t extremes;
+    size_t time_letters;
+    const char *bar; /* title of the colour bar, "" for none; NULL: no bar */
+    const coloring *coloring;
+    const char *legend;        /* title of the legend, "" for none; NULL: no legend */
+    const overlay_kind *kinds; /* of the legend, from above */
+    uint32_t kind_count;
+    int axes;
+    layout layout;
+} overlay;
+
+/* Finds places for all of it on pictures of a size: the layout. */
+void cgt_overlay_place(overlay *o, uint32_t width, uint32_t height);
+
+/* Draws it where it was placed. */
 void cgt_overlay_draw(const overlay *o, const canvas *c, const overlay_frame *frame);
 
 /* Replaces {time}, {time:.2f} with so many decimals, {step} and {frame}; text is cut to size. */

@@ -90,14 +90,37 @@ static uint32_t next_character(const char **text)
     return t[0] >= 0x80 && !more ? 0xfffd : code;
 }
 
+void cgt_text_set_size(text_font *font, float pixels)
+{
+    if (font)
+        FT_Set_Char_Size(font->face, 0, (FT_F26Dot6)(64.0f * pixels), 72, 72);
+}
+
+static float advance_of(const text_font *font, uint32_t code)
+{
+    const FT_Face face = font->face;
+    return FT_Load_Char(face, code, FT_LOAD_TARGET_LIGHT) == 0 ? (float)face->glyph->advance.x / 64.0f : 0.0f;
+}
+
 float cgt_text_width(const text_font *font, const char *utf8)
 {
     float width = 0.0f;
     uint32_t code;
     while ((code = next_character(&utf8)) != 0)
-        if (FT_Load_Char(font->face, code, FT_LOAD_TARGET_LIGHT) == 0)
-            width += (float)font->face->glyph->advance.x / 64.0f;
+        width += advance_of(font, code);
     return width;
+}
+
+size_t cgt_text_fit(const text_font *font, const char *utf8, float width)
+{
+    const char *const begin = utf8;
+    uint32_t code;
+    for (const char *at = utf8; (code = next_character(&utf8)) != 0; at = utf8) {
+        width -= advance_of(font, code);
+        if (width < 0.0f)
+            return (size_t)(at - begin);
+    }
+    return (size_t)(utf8 - begin);
 }
 
 uint32_t cgt_text_find_missing(const text_font *font, const char *utf8, char *missing, size_t size)
@@ -154,11 +177,24 @@ text_font *cgt_text_open(const char *path, float pixels, char *error, size_t err
 
 void cgt_text_close(text_font *font) { (void)font; }
 
+void cgt_text_set_size(text_font *font, float pixels)
+{
+    (void)font;
+    (void)pixels;
+}
+
 float cgt_text_width(const text_font *font, const char *utf8)
 {
     (void)font;
     (void)utf8;
     return 0.0f;
+}
+
+size_t cgt_text_fit(const text_font *font, const char *utf8, float width)
+{
+    (void)font;
+    (void)width;
+    return strlen(utf8);
 }
 
 uint32_t cgt_text_find_missing(const text_font *font, const char *utf8, char *missing, size_t size)

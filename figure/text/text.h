@@ -17,6 +17,12 @@ typedef struct text_font text_font;
 text_font *cgt_text_open(const char *path, float pixels, char *error, size_t error_size);
 void cgt_text_close(text_font *font); /* NULL is ignored */
 
+/* Changes the size of an open font; NULL is ignored. A font that lacks the size keeps the one before. */
+void cgt_text_set_size(text_font *font, float pixels);
+
+/* How many bytes of a text, in whole characters, are no wider than so many pixels. */
+size_t cgt_text_fit(const text_font *font, const char *utf8, float width);
+
 /* Width of a text in UTF-8, in pixels. What is no UTF-8 counts as one unknown character a byte. */
 float cgt_text_width(const text_font *font, const char *utf8);
 

@@ -144,6 +144,12 @@ TEST(times_replace_their_names)
     assert_string_equal(little, "-1200");
 }
 
+static void place_and_draw(overlay *o, const canvas *c, const overlay_frame *f)
+{
+    cgt_overlay_place(o, WIDTH, HEIGHT);
+    cgt_overlay_draw(o, c, f);
+}
+
 static overlay make_overlay(coloring *k)
 {
     assert_int_equal(cgt_coloring_init(k, COLORING_VALUE, NULL, 0.0f, 1.0f), 0);
@@ -157,7 +163,7 @@ TEST(the_bar_shows_the_map)
     const overlay_frame f = {.number = 0};
     overlay o = make_overlay(&k);
     o.bar = "";
-    cgt_overlay_draw(&o, &c, &f);
+    place_and_draw(&o, &c, &f);
     /* From a quarter of the height to three, 5.5 sizes from the right: viridis' yellow above, its violet below. */
     const uint8_t *above = pixel(WIDTH - 50, HEIGHT / 4 + 1), *below = pixel(WIDTH - 50, 3 * HEIGHT / 4 - 2);
     assert_true(above[0] > 240 && above[1] > 220 && above[2] < 60);
@@ -178,7 +184,7 @@ TEST(the_legend_has_a_line_for_each_kind)
     o.legend = "";
     o.kinds = kinds;
     o.kind_count = 2;
-    cgt_overlay_draw(&o, &c, &f);
+    place_and_draw(&o, &c, &f);
     /* Without a font: swatches of 10 pixels, 14.5 apart around the middle, 9 pixels from the edge. */
     const int x = WIDTH - 9 - 13 + 5;
     assert_true(pixel(x, HEIGHT / 2 - 7)[2] == 255 && pixel(x, HEIGHT / 2 - 7)[0] == 0);
@@ -190,13 +196,13 @@ TEST(the_legend_has_a_line_for_each_kind)
     if (o.font) { /* names to the right of the swatches, which make room; a title above */
         c = make_canvas(0);
         o.legend = "kinds";
-        cgt_overlay_draw(&o, &c, &f);
+        place_and_draw(&o, &c, &f);
         const int left = (int)((float)WIDTH - 9.0f - 13.5f - cgt_text_width(o.font, "oxygen"));
         assert_true(drawn(left + 13, HEIGHT / 2 + 2, WIDTH - 8, HEIGHT / 2 + 24) > 40);
         assert_true(drawn(left, HEIGHT / 2 - 24, left + 40, HEIGHT / 2 - 10) > 40);
         assert_int_equal(drawn(0, 0, left - 1, HEIGHT), 0);
         o.kind_count = 30; /* more than there is room for */
-        cgt_overlay_draw(&o, &c, &f);
+        place_and_draw(&o, &c, &f);
         cgt_text_close(o.font);
     }
     cgt_coloring_free(&k);
@@ -209,8 +215,8 @@ TEST(axes_point_as_the_camera_sees_them)
     const overlay_frame f = {.right = {1, 0, 0}, .up = {0, 0, 1}, .forward = {0, 1, 0}}; /* from the front: y away */
     overlay o = make_overlay(&k);
     o.axes = 1;
-    cgt_overlay_draw(&o, &c, &f);
-    const int x = 33, y = HEIGHT - 33;                                  /* the origin: margin and length */
+    place_and_draw(&o, &c, &f);
+    const int x = 34, y = HEIGHT - 34;                                  /* the origin: 3.4 sizes */
     assert_true(pixel(x + 15, y)[0] > 150 && pixel(x + 15, y)[2] < 60); /* x is red, to the right */
     assert_true(pixel(x, y - 15)[2] > 150 && pixel(x, y - 15)[0] < 60); /* z is blue, up */
     assert_int_equal(drawn(x - 20, y - 2, x - 4, y + 2), 0);
@@ -234,7 +240,7 @@ TEST(texts_are_drawn_where_there_is_a_font)
     const overlay_frame f = {.time = 2.5};
     o.title = "A title";
     o.time = "t = {time}";
-    cgt_overlay_draw(&o, &c, &f);
+    place_and_draw(&o, &c, &f);
     const float width = cgt_text_width(o.font, o.title);
     assert_true(width > 20.0f && width < 60.0f);
     assert_true(drawn((int)(0.5f * (WIDTH - width)), 5, (int)(0.5f * (WIDTH + width)), 22) > 40);
