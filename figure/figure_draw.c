@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "data/element_symbols.h"
+#include "text/labels.h"
 
 static void set_first_light(const cgt_figure *figure, cgt_picture_light *light)
 {
@@ -194,6 +195,7 @@ int cgt_figure_choose_overlay(cgt_figure *figure)
     v->title = o->title;
     v->time = !o->time || *o->time ? o->time : "t = {time}";
     v->axes = o->axes;
+    v->scale = o->scale;
     v->coloring = &figure->coloring;
     if (figure->coloring.by == COLORING_TYPE || figure->coloring.by == COLORING_ELEMENT)
         choose_legend(figure);
@@ -209,15 +211,80 @@ int cgt_figure_choose_overlay(cgt_figure *figure)
     return 0;
 }
 
+/* Half of the height that the camera shows, at a depth. */
+static double half_height(const cgt_camera *camera, double depth)
+{
+    const double pi = 3.14159265358979323846;
+    return camera->projection == CGT_PROJECTION_ORTHOGRAPHIC ? 0.5 * (double)camera->height
+                                                             : depth * tan((double)camera->fov * pi / 360.0);
+}
+
+static double get_depth(const cgt_camera *camera, const overlay_frame *frame, const float p[3], double at[2])
+{
+    double depth = 0.0;
+    at[0] = at[1] = 0.0;
+    for (int c = 0; c < 3; c++) {
+        const double from = (double)p[c] - (double)camera->eye[c];
+        at[0] += from * (double)frame->right[c];
+        at[1] += from * (double)frame->up[c];
+        depth += from * (double)frame->forward[c];
+    }
+    return depth;
+}
+
+/* At the places where the camera sees what they name. Tells once what has none. */
+static void draw_labels(cgt_figure *figure, const canvas *c, const overlay_frame *frame)
+{
+    const label_list *const from = &figure->parts.frame->labels;
+    text_label labels[LABELS_MOST];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < from->count; i++) {
+        const particle_label *const l = &from->list[i];
+        double at[2];
+        const double depth = get_depth(&figure->camera, frame, l->place, at);
+        const double scale = 0.5 * (double)c->height / half_height(&figure->camera, depth);
+        if (depth > 0.0)
+            labels[count++] = (text_label){(float)(0.5 * (double)c->width + scale * at[0]),
+                                           (float)(0.5 * (double)c->height - scale * at[1]),
+                                           (float)(scale * (double)l->radius), (float)depth, l->text};
+    }
+    const uint32_t dropped = cgt_labels_draw(&figure->overlay, c, labels, count);
+    if (figure->has_labels_told || (!dropped && from->matched <= LABELS_MOST))
+        return;
+    figure->has_labels_told = 1;
+    if (from->matched > LABELS_MOST)
+        cgt_notices_add(&figure->notices, "--label: the first %d of %" PRIu64 " spheres have labels", LABELS_MOST,
+                        from->matched);
+    if (dropped)
+        cgt_notices_add(&figure->notices,
+                        "--label: in frame %" PRIu64 " there is no room for %" PRIu32 " of %" PRIu32 " labels",
+                        figure->frame->number, dropped, count);
+}
+
 void cgt_figure_draw_overlay(cgt_figure *figure)
 {
     const canvas c = {figure->options.width, figure->options.height, figure->image.bytes, figure->image.alpha,
                       figure->image.linear};
-    overlay_frame frame = {.number = figure->frame->number, .step = figure->frame->step, .time = figure->frame->time};
+    overlay_frame frame = {.number = figure->frame->number,
+                           .step = figure->frame->step,
+                           .time = figure->frame->time,
+                           .angstrom = (double)figure->parts.frame->angstrom};
+    double middle[2];
     if (!figure->overlay.font)
         return;
     cgt_camera_get_axes(&figure->camera, frame.right, frame.up, frame.forward);
-    cgt_overlay_draw(&figure->overlay, &c, &frame);
+    const double depth = get_depth(&figure->camera, &frame, figure->camera.target, middle);
+    frame.pixel = 2.0 * half_height(&figure->camera, depth) / (double)c.height;
+    if (figure->parts.frame->labels.count)
+        draw_labels(figure, &c, &frame);
+    if (cgt_overlay_draw(&figure->overlay, &c, &frame) && !figure->has_scale_told) {
+        figure->has_scale_told = 1;
+        cgt_notices_add(&figure->notices,
+                        "--scale-bar: in frame %" PRIu64
+                        " this length is above 0.4 of the picture's width, or below two "
+                        "pixels: there is no bar",
+                        figure->frame->number);
+    }
 }
 
 /* ---- Pictures -------------------------------------------------------------------------------------------------- */

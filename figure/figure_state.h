@@ -68,6 +68,7 @@ struct cgt_figure {
     cgt_image image;      /* of the frame: the caller's memory */
     overlay overlay;
     overlay_kind kinds[OVERLAY_MOST_KINDS]; /* of its legend */
+    int has_scale_told, has_labels_told;    /* what is wrong with them */
 
     /* Of <cgt/figure.h> alone. */
     int is_settled, is_surveying, has_bonds_told;

@@ -278,6 +278,26 @@ static void draw_legend(const overlay *o, const canvas *c)
     }
 }
 
+/* ---- Scale bar ---------------------------------------------------------------------------------------------- */
+
+/* A line with ends on the right, its label over it. */
+static int draw_scale(const overlay *o, const canvas *c, const overlay_frame *f)
+{
+    const layout_rect *const all = &o->layout.rect[LAYOUT_SCALE];
+    const float most = cgt_scale_bar_share(&o->scale) * (float)c->width, thick = fmaxf(1.0f, roundf(0.12f * o->size));
+    float length;
+    char label[SCALE_BAR_LABEL];
+    if (cgt_scale_bar_find(&o->scale, f->pixel, f->angstrom, most, &length, label))
+        return -1;
+    const float width = cgt_text_width(o->font, label), middle = all->x1 - 0.5f * fmaxf(length, width);
+    const float left = middle - 0.5f * length, y = roundf(all->y1 - 0.4f * o->size), end = 0.25f * o->size;
+    cgt_canvas_fill(c, left, y, length, thick, o->color);
+    cgt_canvas_fill(c, left, y + 0.5f * thick - end, thick, 2.0f * end, o->color);
+    cgt_canvas_fill(c, left + length - thick, y + 0.5f * thick - end, thick, 2.0f * end, o->color);
+    cgt_text_draw(o->font, c, middle - 0.5f * width, all->y0 + 0.95f * o->size, label, o->color);
+    return 0;
+}
+
 /* ---- Axes --------------------------------------------------------------------------------------------------- */
 
 static void draw_axes(const overlay *o, const canvas *c, const overlay_frame *f)
@@ -333,12 +353,17 @@ void cgt_overlay_place(overlay *o, uint32_t width, uint32_t height)
         for (uint32_t i = find_ticks(o, MOST_TICKS, ticks, texts); o->font && i-- > 0;)
             in.tick_width = fmaxf(in.tick_width, cgt_text_width(o->font, texts[i].text));
     }
+    if (o->scale.is_set) {
+        char label[SCALE_BAR_LABEL];
+        cgt_scale_bar_longest(&o->scale, label);
+        in.scale_width = fmaxf(cgt_scale_bar_share(&o->scale) * (float)width, cgt_text_width(o->font, label));
+    }
     cgt_layout_make(&in, &o->layout);
 }
 
 static int has(const overlay *o, layout_item item) { return o->layout.rect[item].x1 > o->layout.rect[item].x0; }
 
-void cgt_overlay_draw(const overlay *o, const canvas *c, const overlay_frame *frame)
+int cgt_overlay_draw(const overlay *o, const canvas *c, const overlay_frame *frame)
 {
     if (has(o, LAYOUT_LEGEND))
         draw_legend(o, c);
@@ -349,4 +374,5 @@ void cgt_overlay_draw(const overlay *o, const canvas *c, const overlay_frame *fr
     if (o->font)
         draw_texts(o, c, frame);
     cgt_text_set_size(o->font, o->size);
+    return has(o, LAYOUT_SCALE) ? draw_scale(o, c, frame) : 0;
 }

@@ -10,6 +10,7 @@
 #include "text/canvas.h"
 #include "color/coloring.h"
 #include "text/layout.h"
+#include "text/scale_bar.h"
 #include "text/text.h"
 
 enum { OVERLAY_MOST_KINDS = 24 }; /* of a legend: a last line says how many more there are */
@@ -26,6 +27,8 @@ typedef struct overlay_frame {
     int64_t step;
     double time; /* NaN: unknown, {time} is the step */
     float right[3], up[3], forward[3];
+    double pixel;    /* world units a pixel, at the camera's target */
+    double angstrom; /* world units an Angstrom; 0: unknown */
 } overlay_frame;
 
 typedef struct overlay {
@@ -45,14 +48,15 @@ typedef struct overlay {
     const overlay_kind *kinds; /* of the legend, from above */
     uint32_t kind_count;
     int axes;
+    scale_bar scale;
     layout layout;
 } overlay;
 
 /* Finds places for all of it on pictures of a size: the layout. */
 void cgt_overlay_place(overlay *o, uint32_t width, uint32_t height);
 
-/* Draws it where it was placed. */
-void cgt_overlay_draw(const overlay *o, const canvas *c, const overlay_frame *frame);
+/* Draws it where it was placed. Returns 0, or -1: the length of a scale bar is no length for the picture. */
+int cgt_overlay_draw(const overlay *o, const canvas *c, const overlay_frame *frame);
 
 /* Replaces {time}, {time:.2f} with so many decimals, {step} and {frame}; text is cut to size. */
 void cgt_overlay_format(const char *format, const overlay_frame *frame, char *text, size_t size);

@@ -54,6 +54,7 @@ static overlay make_overlay(text_font *font, uint32_t number, uint32_t height, f
     const char *const title = number % TITLES == 3 ? long_text : titles[number % TITLES];
     o.title = title;
     o.axes = number / 5 % 2;
+    o.scale = (scale_bar){font && number / 4 % 3 == 1, number / 12 % 2 ? 0.0 : 2.5, "furlong"};
     o.time = number / 10 % 3 == 0 ? NULL : number / 10 % 3 == 1 ? "t = {time:.2f} ps" : long_text;
     o.extreme[0] = (overlay_frame){.time = -3.5};
     o.extreme[1] = (overlay_frame){.time = 12345.25};
@@ -108,7 +109,7 @@ static void check_rectangles(const layout *l, uint32_t width, uint32_t height, u
 static void check_told(const overlay *o, uint32_t number)
 {
     const layout *const l = &o->layout;
-    const int wanted[LAYOUT_ITEMS] = {o->title && *o->title,      o->time != NULL, 0, o->bar != NULL,
+    const int wanted[LAYOUT_ITEMS] = {o->title && *o->title,      o->time != NULL, o->scale.is_set, o->bar != NULL,
                                       o->legend && o->kind_count, o->axes};
     for (int i = 0; i < LAYOUT_ITEMS; i++)
         if (wanted[i] != (is_there(&l->rect[i]) || l->left_out >> i & 1u))
@@ -170,7 +171,8 @@ TEST(usual_texts_find_room)
 TEST(texts_stay_in_their_rectangles)
 {
     text_font *const font = open_font();
-    const overlay_frame frame = {.time = 7.5, .right = {0.6f, 0.8f, 0}, .up = {0, 0, -1}, .forward = {0.8f, -0.6f, 0}};
+    const overlay_frame frame = {
+        .time = 7.5, .right = {0.6f, 0.8f, 0}, .up = {0, 0, -1}, .forward = {0.8f, -0.6f, 0}, .pixel = 0.05};
     if (!font)
         skip();
     for (size_t s = 0; s < SIZES; s++)
