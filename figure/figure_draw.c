@@ -130,7 +130,7 @@ static void choose_bar(cgt_figure *figure)
                         "--legend: the colours are those of neither types nor elements: there is no legend");
 }
 
-/* Tells what the font lacks: it would be empty boxes. */
+/* Tells what no font has: it would be empty boxes. */
 static void check_glyphs(cgt_figure *figure)
 {
     const overlay *v = &figure->overlay;
@@ -144,11 +144,10 @@ static void check_glyphs(cgt_figure *figure)
         first = first ? first : code;
     }
     if (first)
-        cgt_notices_add(
-            &figure->notices,
-            "the font lacks %s: boxes stand in their place; --font takes another one, and 'fc-list :charset=%" PRIx32
-            "' tells which have them",
-            missing, first);
+        cgt_notices_add(&figure->notices,
+                        "no font is found for %s: boxes stand in their place; --font takes another one, and 'fc-list "
+                        ":charset=%" PRIx32 "' tells which have them",
+                        missing, first);
 }
 
 /* Frames with the extremes of all that were looked at: with their times, and where some are unknown without. */

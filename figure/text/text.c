@@ -14,11 +14,25 @@
 
 #ifdef CGT_HAVE_FREETYPE
 
+#ifdef CGT_HAVE_FONTCONFIG
+#include <fontconfig/fontconfig.h>
+#endif
 #include <freetype/freetype.h>
+
+enum { OTHER_FONTS = 8, LACKING = 64 };
+
+/* Fonts for what the font lacks; found when they are needed. */
+typedef struct other_fonts {
+    FT_Face face[OTHER_FONTS];
+    uint32_t count;
+    uint32_t lacking[LACKING], lacking_count; /* characters that no font has */
+} other_fonts;
 
 struct text_font {
     FT_Library library;
     FT_Face face;
+    FT_F26Dot6 size;
+    other_fonts *others;
 };
 
 static FT_Error open_face(text_font *font, const char *path)
@@ -38,11 +52,15 @@ static FT_Error open_face(text_font *font, const char *path)
 text_font *cgt_text_open(const char *path, float pixels, char *error, size_t error_size)
 {
     text_font *font = calloc(1, sizeof *font);
-    if (!font || FT_Init_FreeType(&font->library)) {
+    other_fonts *others = calloc(1, sizeof *others);
+    if (!font || !others || FT_Init_FreeType(&font->library)) {
         snprintf(error, error_size, "out of memory for a font");
+        free(others);
         free(font);
         return NULL;
     }
+    font->others = others;
+    font->size = (FT_F26Dot6)(64.0f * pixels);
     if (open_face(font, path)) {
         if (path)
             snprintf(error, error_size, "%s: this is no font that can be read", path);
@@ -51,7 +69,7 @@ text_font *cgt_text_open(const char *path, float pixels, char *error, size_t err
                 error, error_size,
                 "text needs a font, and DejaVu Sans is not where distributions put it (package fonts-dejavu-core): "
                 "give one by --font");
-    } else if (FT_Set_Char_Size(font->face, (FT_F26Dot6)(64.0f * pixels), 0, 72, 72)) {
+    } else if (FT_Set_Char_Size(font->face, font->size, 0, 72, 72)) {
         snprintf(error, error_size, "%s: the font has no size of %s pixels", path ? path : "DejaVu Sans",
                  cgt_number(6, (double)pixels).text);
     } else {
@@ -65,6 +83,9 @@ void cgt_text_close(text_font *font)
 {
     if (!font)
         return;
+    for (uint32_t i = 0; i < font->others->count; i++)
+        FT_Done_Face(font->others->face[i]);
+    free(font->others);
     if (font->face)
         FT_Done_Face(font->face);
     FT_Done_FreeType(font->library);
@@ -92,13 +113,102 @@ static uint32_t next_character(const char **text)
 
 void cgt_text_set_size(text_font *font, float pixels)
 {
-    if (font)
-        FT_Set_Char_Size(font->face, 0, (FT_F26Dot6)(64.0f * pixels), 72, 72);
+    if (!font)
+        return;
+    font->size = (FT_F26Dot6)(64.0f * pixels);
+    FT_Set_Char_Size(font->face, font->size, 0, 72, 72);
+    for (uint32_t i = 0; i < font->others->count; i++)
+        FT_Set_Char_Size(font->others->face[i], font->size, 0, 72, 72);
+}
+
+/* ---- Other fonts -------------------------------------------------------------------------------------------- */
+
+#ifdef CGT_HAVE_FONTCONFIG
+
+/* Opens a font of outlines that has a character; NULL: it is none, or cannot be read. */
+static FT_Face open_other(const text_font *font, FcPattern *found, uint32_t code)
+{
+    FcChar8 *file;
+    FcCharSet *characters;
+    FT_Face face;
+    int index = 0;
+    if (FcPatternGetCharSet(found, FC_CHARSET, 0, &characters) != FcResultMatch ||
+        !FcCharSetHasChar(characters, code) || FcPatternGetString(found, FC_FILE, 0, &file) != FcResultMatch)
+        return NULL;
+    FcPatternGetInteger(found, FC_INDEX, 0, &index);
+    if (FT_New_Face(font->library, (const char *)file, index, &face))
+        return NULL;
+    if (FT_IS_SCALABLE(face) && !FT_HAS_COLOR(face) && FT_Get_Char_Index(face, code) &&
+        FT_Set_Char_Size(face, font->size, 0, 72, 72) == 0)
+        return face;
+    FT_Done_Face(face);
+    return NULL;
+}
+
+/* A font that has a character, the nearest to a sans-serif one by the system's rules; NULL: there is none. The
+ * configuration is this call's own, so that no state is shared with a program that uses fontconfig, too. */
+static FT_Face find_other(const text_font *font, uint32_t code)
+{
+    FcConfig *const config = FcInitLoadConfigAndFonts();
+    FcPattern *const wanted = FcPatternCreate();
+    FcCharSet *const characters = FcCharSetCreate();
+    FcFontSet *fonts = NULL;
+    FcResult result;
+    FT_Face face = NULL;
+    if (config && wanted && characters && FcCharSetAddChar(characters, code) &&
+        FcPatternAddCharSet(wanted, FC_CHARSET, characters) &&
+        FcPatternAddString(wanted, FC_FAMILY, (const FcChar8 *)"sans-serif") &&
+        FcConfigSubstitute(config, wanted, FcMatchPattern)) {
+        FcDefaultSubstitute(wanted);
+        fonts = FcFontSort(config, wanted, FcFalse, NULL, &result);
+    }
+    for (int i = 0; fonts && i < fonts->nfont && !face; i++)
+        face = open_other(font, fonts->fonts[i], code);
+    if (fonts)
+        FcFontSetDestroy(fonts);
+    if (characters)
+        FcCharSetDestroy(characters);
+    if (wanted)
+        FcPatternDestroy(wanted);
+    if (config)
+        FcConfigDestroy(config);
+    return face;
+}
+
+#else
+
+static FT_Face find_other(const text_font *font, uint32_t code)
+{
+    (void)font;
+    (void)code;
+    return NULL;
+}
+
+#endif
+
+/* The font that a character is drawn in: the first that has it; where none has, the first of all, which draws a box. */
+static FT_Face face_of(const text_font *font, uint32_t code)
+{
+    other_fonts *const o = font->others;
+    if (FT_Get_Char_Index(font->face, code) || code == 0xfffd)
+        return font->face;
+    for (uint32_t i = 0; i < o->count; i++)
+        if (FT_Get_Char_Index(o->face[i], code))
+            return o->face[i];
+    for (uint32_t i = 0; i < o->lacking_count; i++)
+        if (o->lacking[i] == code)
+            return font->face;
+    const FT_Face found = o->count < OTHER_FONTS ? find_other(font, code) : NULL;
+    if (found)
+        return o->face[o->count++] = found;
+    if (o->lacking_count < LACKING)
+        o->lacking[o->lacking_count++] = code;
+    return font->face;
 }
 
 static float advance_of(const text_font *font, uint32_t code)
 {
-    const FT_Face face = font->face;
+    const FT_Face face = face_of(font, code);
     return FT_Load_Char(face, code, FT_LOAD_TARGET_LIGHT) == 0 ? (float)face->glyph->advance.x / 64.0f : 0.0f;
 }
 
@@ -130,7 +240,7 @@ uint32_t cgt_text_find_missing(const text_font *font, const char *utf8, char *mi
         char character[5] = "";
         const size_t length = strlen(missing);
         memcpy(character, at, (size_t)(utf8 - at));
-        if (FT_Get_Char_Index(font->face, code) || strstr(missing, character))
+        if (FT_Get_Char_Index(face_of(font, code), code) || strstr(missing, character))
             continue;
         first = first ? first : code;
         if (length + strlen(character) < size)
@@ -158,10 +268,11 @@ void cgt_text_draw(const text_font *font, const canvas *c, float x, float y, con
 {
     uint32_t code;
     while ((code = next_character(&utf8)) != 0) {
-        if (FT_Load_Char(font->face, code, FT_LOAD_RENDER | FT_LOAD_TARGET_LIGHT) != 0)
+        const FT_Face face = face_of(font, code);
+        if (FT_Load_Char(face, code, FT_LOAD_RENDER | FT_LOAD_TARGET_LIGHT) != 0)
             continue;
-        draw_bitmap(c, font->face->glyph, (int32_t)(x + 0.5f), (int32_t)(y + 0.5f), color);
-        x += (float)font->face->glyph->advance.x / 64.0f;
+        draw_bitmap(c, face->glyph, (int32_t)(x + 0.5f), (int32_t)(y + 0.5f), color);
+        x += (float)face->glyph->advance.x / 64.0f;
     }
 }
 

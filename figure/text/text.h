@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Text on pictures, by FreeType. In builds without it cgt_text_open fails with a sentence. */
+ * Text on pictures, by FreeType. In builds without it cgt_text_open fails with a sentence. What the font lacks is drawn
+ * in other fonts, which fontconfig finds, in builds that have it. */
 #ifndef TEXT_H
 #define TEXT_H
 
@@ -26,7 +27,7 @@ size_t cgt_text_fit(const text_font *font, const char *utf8, float width);
 /* Width of a text in UTF-8, in pixels. What is no UTF-8 counts as one unknown character a byte. */
 float cgt_text_width(const text_font *font, const char *utf8);
 
-/* Appends the characters of a text that the font lacks to `missing`, each once, as far as it has room, and returns the
+/* Appends the characters of a text that neither the font nor another installed one has to `missing`, each once, as far as it has room, and returns the
  * code of the first of them that was not there yet; 0: none. */
 uint32_t cgt_text_find_missing(const text_font *font, const char *utf8, char *missing, size_t size);
 

@@ -251,20 +251,54 @@ TEST(texts_are_drawn_where_there_is_a_font)
     assert_true(fabsf(cgt_text_width(o.font, "\xc3\xa9") - cgt_text_width(o.font, "e")) < 2.0f);
     assert_true(cgt_text_width(o.font, "\xff\xc3") > 0.0f);
     cgt_text_draw(o.font, &c, 1e4f, -1e4f, "outside \xe2\x82", white);
-    /* what DejaVu Sans lacks, each once; nothing of Latin, Greek and units */
+    /* what no font has, each once; nothing of Latin, Greek and units */
     char missing[12] = "";
     assert_int_equal(cgt_text_find_missing(o.font, "\xc3\x85, \xc2\xb5, \xce\xb1 \xe2\x86\x92 100 \xc2\xb0", missing,
                                            sizeof missing),
                      0);
-    assert_int_equal(cgt_text_find_missing(o.font, "\xe6\xb8\xa9\xe5\xba\xa6 T \xe6\xb8\xa9", missing, sizeof missing),
-                     0x6e29);
-    assert_string_equal(missing, "\xe6\xb8\xa9\xe5\xba\xa6");
-    assert_int_equal(cgt_text_find_missing(o.font, "\xe5\xba\xa6", missing, sizeof missing), 0);
-    cgt_text_find_missing(o.font, "\xe4\xb8\x80\xe4\xba\x8c\xe4\xb8\x89", missing,
+    assert_int_equal(cgt_text_find_missing(o.font, "\xe2\xbf\xa0\xe2\xbf\xa1 T \xe2\xbf\xa0", missing, sizeof missing),
+                     0x2fe0);
+    assert_string_equal(missing, "\xe2\xbf\xa0\xe2\xbf\xa1");
+    assert_int_equal(cgt_text_find_missing(o.font, "\xe2\xbf\xa1", missing, sizeof missing), 0);
+    cgt_text_find_missing(o.font, "\xe2\xbf\xa2\xe2\xbf\xa3\xe2\xbf\xa4", missing,
                           sizeof missing); /* as far as there is room */
     assert_int_equal(strlen(missing), 9);
     cgt_text_close(o.font);
     cgt_coloring_free(&k);
+}
+
+/* DejaVu Sans Mono has no Hebrew, DejaVu Sans has: it is drawn in another font where fontconfig finds one, else told.
+ * What the font has itself is its own. */
+TEST(other_fonts_have_what_one_lacks)
+{
+    static const char alef[] = "\xd7\x90";
+    static uint8_t box[sizeof rgb];
+    char error[256], missing[12] = "";
+    text_font *const font =
+        cgt_text_open("/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf", 40.0f, error, sizeof error);
+    if (!font) {
+        print_message("%s\n", error);
+        skip();
+    }
+    canvas c = make_canvas(0);
+    cgt_text_draw(font, &c, 20.0f, 100.0f, "\xe2\xbf\xa0", white); /* which no font has */
+    memcpy(box, rgb, sizeof rgb);
+    assert_true(drawn(20, 50, 80, 120) > 50);
+    c = make_canvas(0);
+    cgt_text_draw(font, &c, 20.0f, 100.0f, alef, white);
+    assert_true(drawn(20, 50, 80, 120) > 50);
+#ifdef CGT_HAVE_FONTCONFIG
+    assert_int_equal(cgt_text_find_missing(font, alef, missing, sizeof missing), 0);
+    assert_memory_not_equal(rgb, box, sizeof rgb);
+#else
+    assert_int_equal(cgt_text_find_missing(font, alef, missing, sizeof missing), 0x5d0);
+    assert_memory_equal(rgb, box, sizeof rgb);
+#endif
+    const float width = cgt_text_width(font, alef);
+    cgt_text_set_size(font, 20.0f); /* of all fonts */
+    assert_true(fabsf(cgt_text_width(font, alef) - 0.5f * width) < 1.5f);
+    assert_true(fabsf(cgt_text_width(font, "i") - cgt_text_width(font, "M")) < 0.01f);
+    cgt_text_close(font);
 }
 
 SUITE(NULL, NULL)
