@@ -299,7 +299,6 @@ static int fit_camera(cgt_figure *figure)
     const survey *const s = &figure->survey;
     const camera_directions *const fit = figure_fit(figure);
     layout *const l = &figure->overlay.layout;
-    const double half[2] = {0.5 * (double)figure->options.width, 0.5 * (double)figure->options.height};
     camera_room rooms[sizeof l->room / sizeof l->room[0]];
     if (!cgt_picture_options_have_overlay(&figure->options.picture))
         return cgt_camera_path_fit(&figure->path, fit, &s->reach, s->bounds_min, s->bounds_max) ? 1 : 0;
@@ -307,8 +306,7 @@ static int fit_camera(cgt_figure *figure)
         return -1;
     for (uint32_t i = 0; i < l->rooms; i++) {
         const layout_rect *const r = &l->room[i];
-        rooms[i] = (camera_room){{(double)r->x1 / half[0] - 1.0, 1.0 - (double)r->x0 / half[0],
-                                  1.0 - (double)r->y0 / half[1], (double)r->y1 / half[1] - 1.0}};
+        rooms[i] = cgt_camera_room_between(r->x0, r->y0, r->x1, r->y1, figure->options.width, figure->options.height);
     }
     return cgt_camera_path_fit_room(&figure->path, fit, &s->reach, s->bounds_min, s->bounds_max, rooms, l->rooms,
                                     &l->chosen)

@@ -32,6 +32,14 @@ typedef struct camera_room {
     double share[4];
 } camera_room;
 
+/* The room between two corners, in pixels from the upper left one. */
+static inline camera_room cgt_camera_room_between(float x0, float y0, float x1, float y1, uint32_t width,
+                                                  uint32_t height)
+{
+    const double w = 0.5 * (double)width, h = 0.5 * (double)height;
+    return (camera_room){{(double)x1 / w - 1.0, 1.0 - (double)x0 / w, 1.0 - (double)y0 / h, (double)y1 / h - 1.0}};
+}
+
 /* The same for a scene in one of several rooms, in which it is largest: *chosen. `fit` has plain directions where the
  * camera is a perspective one. An orbit goes around the middle of the picture. */
 int cgt_camera_path_fit_room(camera_path *path, const camera_directions *fit, const camera_reach *reach,

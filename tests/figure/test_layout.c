@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "camera/camera_path.h"
+#include "figure_state.h"
 #include "text/overlay.h"
 
 static const char *const long_text =
@@ -306,7 +307,7 @@ TEST(the_scene_is_in_its_room)
     text_font *const font = open_font();
     for (uint32_t number = 0; number < 240; number++) {
         const uint32_t width = pictures[number % 4][0], height = pictures[number % 4][1];
-        const double half[2] = {0.5 * (double)width, 0.5 * (double)height}, orbit = number % 3 == 2 ? 130.0 : 0.0;
+        const double orbit = number % 3 == 2 ? 130.0 : 0.0;
         const int is_parallel = number % 5 == 4;
         const float fov = number % 7 == 6 ? 90.0f : 30.0f, up[3] = {0, 0, 1};
         const float view[3] = {0.5f, -1.0f, number % 2 ? 0.45f : -0.2f};
@@ -331,8 +332,7 @@ TEST(the_scene_is_in_its_room)
         camera_room rooms[2];
         for (uint32_t i = 0; i < o.layout.rooms; i++) {
             const layout_rect *const r = &o.layout.room[i];
-            rooms[i] = (camera_room){{(double)r->x1 / half[0] - 1.0, 1.0 - (double)r->x0 / half[0],
-                                      1.0 - (double)r->y0 / half[1], (double)r->y1 / half[1] - 1.0}};
+            rooms[i] = cgt_camera_room_between(r->x0, r->y0, r->x1, r->y1, width, height);
         }
         camera_path path;
         uint32_t chosen = 9;
@@ -371,6 +371,110 @@ TEST(the_scene_is_in_its_room)
         }
     }
     cgt_text_close(font);
+}
+
+/* Whole figures: options, a survey, a picture. */
+TEST(figures_show_the_scene_in_its_room)
+{
+    static const char *const sets[][5][2] = {
+        {{"title", "Grains"}, {"colorbar", "heat, K"}, {"time", "step {step}"}, {"axes", NULL}, {"size", "400x600"}},
+        {{"color", "type"}, {"legend", "kinds"}, {"axes", NULL}, {"ortho", NULL}, {"size", "300x200"}},
+        {{"colorbar", ""}, {"scale-bar", NULL}, {"fov", "70"}, {"view", "top"}, {"size", "320x240"}},
+        {{"title", "Grains"}, {"colorbar", "heat"}, {"orbit", "90"}, {"axes", NULL}, {"size", "640x300"}},
+        {{"title", "Grains"}, {"axes", NULL}, {"time", "{frame}"}, {"zoom", "0.8"}, {"size", "200x200"}}};
+    static float place[BALLS][3], radii[BALLS], heat[BALLS];
+    static uint32_t types[BALLS];
+    static uint8_t pixels[3 * 640 * 600];
+    text_font *const font = open_font();
+    cgt_context *context;
+    if (!font)
+        skip();
+    cgt_text_close(font);
+    assert_int_equal(cgt_context_create(NULL, &context), CGT_OK);
+    for (size_t k = 0; k < 2 * sizeof sets / sizeof sets[0]; k++) {
+        const cgt_figure_column columns[] = {{.name = "radius", .values = cgt_floats(radii, 0)},
+                                             {.name = "type", .values = cgt_uint32s(types, 0)},
+                                             {.name = "heat", .values = cgt_floats(heat, 0)}};
+        const cgt_figure_data data = {.points = {BALLS, cgt_floats(place[0], 0), columns, 3, 0.0f}};
+        const cgt_image image = {.bytes = pixels};
+        double center[BALLS][3], radius[BALLS];
+        cgt_figure *figure;
+        cgt_camera camera;
+        make_scene((uint32_t)k + 77, center, radius);
+        for (int i = 0; i < BALLS; i++) {
+            for (int c = 0; c < 3; c++)
+                place[i][c] = (float)center[i][c];
+            radii[i] = (float)radius[i];
+            types[i] = 1 + (uint32_t)i % 3;
+            heat[i] = (float)i;
+        }
+        assert_int_equal(cgt_figure_create(context, &figure), CGT_OK);
+        assert_int_equal(cgt_figure_set(figure, "color", "heat"), CGT_OK);
+        assert_int_equal(cgt_figure_set(figure, "style", "plain"), CGT_OK);
+        for (int i = 0; i < 5; i++)
+            assert_int_equal(cgt_figure_set(figure, sets[k / 2][i][0], sets[k / 2][i][1]), CGT_OK);
+        assert_int_equal(cgt_figure_show(figure, &data), CGT_OK);
+        assert_int_equal(cgt_figure_draw(figure, &image, NULL), CGT_OK);
+        camera = figure->camera; /* with its projection */
+        const layout *const l = &figure->overlay.layout;
+        const uint32_t width = figure->options.width, height = figure->options.height;
+        const layout_rect seen = find_seen(&camera, center, radius, width, height), *const room = &l->room[l->chosen];
+        assert_int_equal(l->left_out, 0);
+        assert_true(room->x1 - room->x0 < (float)width || room->y1 - room->y0 < (float)height);
+        if (seen.x0 < room->x0 || seen.y0 < room->y0 || seen.x1 > room->x1 || seen.y1 > room->y1)
+            fail_msg("%zu: the scene reaches out of its room", k);
+        const float x = (seen.x1 - seen.x0) / (room->x1 - room->x0), y = (seen.y1 - seen.y0) / (room->y1 - room->y0);
+        assert_true(fmaxf(x, y) > (k / 2 == 3 ? 0.3f : 0.7f));
+        cgt_figure_release(figure);
+    }
+    cgt_context_release(context);
+}
+
+/* The numbers of all frames that were looked at count for the width. */
+TEST(surveys_know_the_longest_times)
+{
+    static const char *const formats[] = {"{step} steps", "{time} ps", "at {frame}: {time:.1f} ps"};
+    static const double times[] = {-20.125, 0.5, 8.25};
+    enum { WIDTH = 500, HEIGHT = 100 };
+    static uint8_t pixels[3 * WIDTH * HEIGHT];
+    static const float place[3] = {0.0f, 0.0f, 0.0f};
+    text_font *const font = open_font();
+    cgt_context *context;
+    if (!font)
+        skip();
+    cgt_text_close(font);
+    assert_int_equal(cgt_context_create(NULL, &context), CGT_OK);
+    for (size_t k = 0; k < sizeof formats / sizeof formats[0]; k++) {
+        cgt_figure *figure;
+        cgt_figure_data data = {.points = {1, cgt_floats(place, 0), NULL, 0, 0.01f}};
+        const cgt_image image = {.bytes = pixels};
+        int right[3] = {0, 0, 0};
+        assert_int_equal(cgt_figure_create(context, &figure), CGT_OK);
+        assert_int_equal(cgt_figure_set(figure, "size", "500x100"), CGT_OK);
+        assert_int_equal(cgt_figure_set(figure, "camera", "0,0,9,0,0,0,0,1,0,5"), CGT_OK);
+        assert_int_equal(cgt_figure_set(figure, "background", "black"), CGT_OK);
+        assert_int_equal(cgt_figure_set(figure, "time", formats[k]), CGT_OK);
+        for (int show = 0; show < 2; show++)
+            for (uint64_t i = 0; i < 3; i++) {
+                data.number = i;
+                data.step = -1000 + 1100 * (int64_t)i;
+                data.time = &times[i];
+                if (!show) {
+                    assert_int_equal(cgt_figure_survey(figure, &data), CGT_OK);
+                    continue;
+                }
+                assert_int_equal(cgt_figure_show(figure, &data), CGT_OK);
+                assert_int_equal(cgt_figure_draw(figure, &image, NULL), CGT_OK);
+                for (int x = 0; x < WIDTH / 2 - 20; x++) /* the sphere is in the middle */
+                    for (int y = HEIGHT / 2; y < HEIGHT; y++)
+                        right[i] = pixels[3 * (y * WIDTH + x)] > 20 ? x : right[i];
+            }
+        assert_in_range(right[1], right[0] - 1, right[0] + 1);
+        assert_in_range(right[2], right[0] - 1, right[0] + 1);
+        assert_true(right[0] > 40);
+        cgt_figure_release(figure);
+    }
+    cgt_context_release(context);
 }
 
 SUITE(make_kinds, free_colors)
