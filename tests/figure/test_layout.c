@@ -132,7 +132,7 @@ TEST(texts_have_places_of_their_own)
     uint32_t placed = 0, cut = 0;
     for (int with_font = 0; with_font < 1 + (font != NULL); with_font++)
         for (size_t s = 0; s < SIZES; s++)
-            for (uint32_t number = 0; number < 360; number += s < 4 ? 2 : 7) {
+            for (uint32_t number = 0; number < 360; number += s < 4 ? 3 : 13) {
                 overlay o = make_overlay(with_font ? font : NULL, number, sizes[s][1], number % 11 ? 0.03f : 0.12f);
                 if (!with_font) /* texts have no width */
                     o.title = o.time = NULL;
@@ -143,7 +143,7 @@ TEST(texts_have_places_of_their_own)
                     placed += (uint32_t)is_there(&o.layout.rect[i]);
                 cut += o.layout.cut != 0;
             }
-    assert_true(placed > 1000 && (!font || cut > 100));
+    assert_true(placed > 600 && (!font || cut > 60));
     cgt_text_close(font);
 }
 
@@ -305,7 +305,7 @@ TEST(the_scene_is_in_its_room)
 {
     static const uint32_t pictures[][2] = {{400, 600}, {3000, 2000}, {1280, 720}, {200, 200}};
     text_font *const font = open_font();
-    for (uint32_t number = 0; number < 240; number++) {
+    for (uint32_t number = 0; number < 1320; number += 11) {
         const uint32_t width = pictures[number % 4][0], height = pictures[number % 4][1];
         const double orbit = number % 3 == 2 ? 130.0 : 0.0;
         const int is_parallel = number % 5 == 4;
