@@ -21,11 +21,15 @@
 
 enum { OTHER_FONTS = 8, LACKING = 64 };
 
-/* Fonts for what the font lacks; found when they are needed. */
+/* Fonts for what the font lacks; found when they are needed. The configuration is the font's own, so that no state is
+ * shared with a program that uses fontconfig, too. */
 typedef struct other_fonts {
+#ifdef CGT_HAVE_FONTCONFIG
+    FcConfig *config;
+#endif
     FT_Face face[OTHER_FONTS];
     uint32_t count;
-    uint32_t lacking[LACKING], lacking_count; /* characters that no font has */
+    uint32_t lacking[LACKING], lacking_count; /* characters that no font has; beyond them none is looked for */
 } other_fonts;
 
 struct text_font {
@@ -34,6 +38,119 @@ struct text_font {
     FT_F26Dot6 size;
     other_fonts *others;
 };
+
+/* The next character of UTF-8; *text moves behind it. Returns 0 at the end. */
+static uint32_t next_character(const char **text)
+{
+    const unsigned char *t = (const unsigned char *)*text;
+    const int more = t[0] >= 0xf0 ? 3 : t[0] >= 0xe0 ? 2 : t[0] >= 0xc0 ? 1 : 0;
+    uint32_t code = more ? t[0] & (0x3fu >> more) : t[0];
+    if (!t[0])
+        return 0;
+    for (int i = 1; i <= more; i++) {
+        if ((t[i] & 0xc0) != 0x80) { /* cut off, or another encoding */
+            *text += 1;
+            return 0xfffd;
+        }
+        code = code << 6 | (t[i] & 0x3fu);
+    }
+    *text += 1 + more;
+    return t[0] >= 0x80 && !more ? 0xfffd : code;
+}
+
+/* ---- Other fonts -------------------------------------------------------------------------------------------- */
+
+#ifdef CGT_HAVE_FONTCONFIG
+
+/* Opens a font of outlines that has a character; NULL: it is none, or cannot be read. */
+static FT_Face open_other(const text_font *font, FcPattern *found, uint32_t code)
+{
+    FcChar8 *file;
+    FcCharSet *characters;
+    FT_Face face;
+    int index = 0;
+    if (FcPatternGetCharSet(found, FC_CHARSET, 0, &characters) != FcResultMatch ||
+        !FcCharSetHasChar(characters, code) || FcPatternGetString(found, FC_FILE, 0, &file) != FcResultMatch)
+        return NULL;
+    FcPatternGetInteger(found, FC_INDEX, 0, &index);
+    if (FT_New_Face(font->library, (const char *)file, index, &face))
+        return NULL;
+    if (FT_IS_SCALABLE(face) && !FT_HAS_COLOR(face) && FT_Get_Char_Index(face, code) &&
+        FT_Set_Char_Size(face, font->size, 0, 72, 72) == 0)
+        return face;
+    FT_Done_Face(face);
+    return NULL;
+}
+
+/* A font that has a character, the nearest to a sans-serif one by the system's rules; NULL: there is none. */
+static FT_Face find_other(const text_font *font, uint32_t code)
+{
+    FcConfig *const config = font->others->config ? font->others->config : FcInitLoadConfigAndFonts();
+    FcPattern *const wanted = FcPatternCreate();
+    FcCharSet *const characters = FcCharSetCreate();
+    FcFontSet *fonts = NULL;
+    FcResult result;
+    FT_Face face = NULL;
+    font->others->config = config;
+    if (config && wanted && characters && FcCharSetAddChar(characters, code) &&
+        FcPatternAddCharSet(wanted, FC_CHARSET, characters) &&
+        FcPatternAddString(wanted, FC_FAMILY, (const FcChar8 *)"sans-serif") &&
+        FcConfigSubstitute(config, wanted, FcMatchPattern)) {
+        FcDefaultSubstitute(wanted);
+        fonts = FcFontSort(config, wanted, FcFalse, NULL, &result);
+    }
+    for (int i = 0; fonts && i < fonts->nfont && !face; i++)
+        face = open_other(font, fonts->fonts[i], code);
+    if (fonts)
+        FcFontSetDestroy(fonts);
+    if (characters)
+        FcCharSetDestroy(characters);
+    if (wanted)
+        FcPatternDestroy(wanted);
+    return face;
+}
+
+static void free_config(other_fonts *o)
+{
+    if (o->config)
+        FcConfigDestroy(o->config);
+}
+
+#else
+
+static FT_Face find_other(const text_font *font, uint32_t code)
+{
+    (void)font;
+    (void)code;
+    return NULL;
+}
+
+static void free_config(other_fonts *o) { (void)o; }
+
+#endif
+
+/* The font that a character is drawn in: the first that has it; where none has, the first of all, which draws a box. */
+static FT_Face face_of(const text_font *font, uint32_t code)
+{
+    other_fonts *const o = font->others;
+    if (FT_Get_Char_Index(font->face, code) || code == 0xfffd)
+        return font->face;
+    for (uint32_t i = 0; i < o->count; i++)
+        if (FT_Get_Char_Index(o->face[i], code))
+            return o->face[i];
+    for (uint32_t i = 0; i < o->lacking_count; i++)
+        if (o->lacking[i] == code)
+            return font->face;
+    if (o->count == OTHER_FONTS || o->lacking_count == LACKING)
+        return font->face;
+    const FT_Face found = find_other(font, code);
+    if (found)
+        return o->face[o->count++] = found;
+    o->lacking[o->lacking_count++] = code;
+    return font->face;
+}
+
+/* ---- The font ----------------------------------------------------------------------------------------------- */
 
 static FT_Error open_face(text_font *font, const char *path)
 {
@@ -85,30 +202,12 @@ void cgt_text_close(text_font *font)
         return;
     for (uint32_t i = 0; i < font->others->count; i++)
         FT_Done_Face(font->others->face[i]);
+    free_config(font->others);
     free(font->others);
     if (font->face)
         FT_Done_Face(font->face);
     FT_Done_FreeType(font->library);
     free(font);
-}
-
-/* The next character of UTF-8; *text moves behind it. Returns 0 at the end. */
-static uint32_t next_character(const char **text)
-{
-    const unsigned char *t = (const unsigned char *)*text;
-    const int more = t[0] >= 0xf0 ? 3 : t[0] >= 0xe0 ? 2 : t[0] >= 0xc0 ? 1 : 0;
-    uint32_t code = more ? t[0] & (0x3fu >> more) : t[0];
-    if (!t[0])
-        return 0;
-    for (int i = 1; i <= more; i++) {
-        if ((t[i] & 0xc0) != 0x80) { /* cut off, or another encoding */
-            *text += 1;
-            return 0xfffd;
-        }
-        code = code << 6 | (t[i] & 0x3fu);
-    }
-    *text += 1 + more;
-    return t[0] >= 0x80 && !more ? 0xfffd : code;
 }
 
 void cgt_text_set_size(text_font *font, float pixels)
@@ -121,90 +220,7 @@ void cgt_text_set_size(text_font *font, float pixels)
         FT_Set_Char_Size(font->others->face[i], font->size, 0, 72, 72);
 }
 
-/* ---- Other fonts -------------------------------------------------------------------------------------------- */
-
-#ifdef CGT_HAVE_FONTCONFIG
-
-/* Opens a font of outlines that has a character; NULL: it is none, or cannot be read. */
-static FT_Face open_other(const text_font *font, FcPattern *found, uint32_t code)
-{
-    FcChar8 *file;
-    FcCharSet *characters;
-    FT_Face face;
-    int index = 0;
-    if (FcPatternGetCharSet(found, FC_CHARSET, 0, &characters) != FcResultMatch ||
-        !FcCharSetHasChar(characters, code) || FcPatternGetString(found, FC_FILE, 0, &file) != FcResultMatch)
-        return NULL;
-    FcPatternGetInteger(found, FC_INDEX, 0, &index);
-    if (FT_New_Face(font->library, (const char *)file, index, &face))
-        return NULL;
-    if (FT_IS_SCALABLE(face) && !FT_HAS_COLOR(face) && FT_Get_Char_Index(face, code) &&
-        FT_Set_Char_Size(face, font->size, 0, 72, 72) == 0)
-        return face;
-    FT_Done_Face(face);
-    return NULL;
-}
-
-/* A font that has a character, the nearest to a sans-serif one by the system's rules; NULL: there is none. The
- * configuration is this call's own, so that no state is shared with a program that uses fontconfig, too. */
-static FT_Face find_other(const text_font *font, uint32_t code)
-{
-    FcConfig *const config = FcInitLoadConfigAndFonts();
-    FcPattern *const wanted = FcPatternCreate();
-    FcCharSet *const characters = FcCharSetCreate();
-    FcFontSet *fonts = NULL;
-    FcResult result;
-    FT_Face face = NULL;
-    if (config && wanted && characters && FcCharSetAddChar(characters, code) &&
-        FcPatternAddCharSet(wanted, FC_CHARSET, characters) &&
-        FcPatternAddString(wanted, FC_FAMILY, (const FcChar8 *)"sans-serif") &&
-        FcConfigSubstitute(config, wanted, FcMatchPattern)) {
-        FcDefaultSubstitute(wanted);
-        fonts = FcFontSort(config, wanted, FcFalse, NULL, &result);
-    }
-    for (int i = 0; fonts && i < fonts->nfont && !face; i++)
-        face = open_other(font, fonts->fonts[i], code);
-    if (fonts)
-        FcFontSetDestroy(fonts);
-    if (characters)
-        FcCharSetDestroy(characters);
-    if (wanted)
-        FcPatternDestroy(wanted);
-    if (config)
-        FcConfigDestroy(config);
-    return face;
-}
-
-#else
-
-static FT_Face find_other(const text_font *font, uint32_t code)
-{
-    (void)font;
-    (void)code;
-    return NULL;
-}
-
-#endif
-
-/* The font that a character is drawn in: the first that has it; where none has, the first of all, which draws a box. */
-static FT_Face face_of(const text_font *font, uint32_t code)
-{
-    other_fonts *const o = font->others;
-    if (FT_Get_Char_Index(font->face, code) || code == 0xfffd)
-        return font->face;
-    for (uint32_t i = 0; i < o->count; i++)
-        if (FT_Get_Char_Index(o->face[i], code))
-            return o->face[i];
-    for (uint32_t i = 0; i < o->lacking_count; i++)
-        if (o->lacking[i] == code)
-            return font->face;
-    const FT_Face found = o->count < OTHER_FONTS ? find_other(font, code) : NULL;
-    if (found)
-        return o->face[o->count++] = found;
-    if (o->lacking_count < LACKING)
-        o->lacking[o->lacking_count++] = code;
-    return font->face;
-}
+/* ---- Widths ------------------------------------------------------------------------------------------------- */
 
 static float advance_of(const text_font *font, uint32_t code)
 {
