@@ -50,7 +50,7 @@ static double distance_in(const camera_directions *fit, const camera_reach *reac
 {
     const int moves = fit->orbit_degrees == 0.0;
     const uint32_t positions = (fit->plain ? fit->plain : fit->count) / fit->sides;
-    double distance = 0.0, far[4], slope[4];
+    double distance = 0.0, far[4] = {0}, slope[4] = {0};
     for (uint32_t p = 0; p < positions; p++) {
         for (uint32_t side = 0; side < 4; side++) { /* at least so far that eye and target differ in float */
             slope[side] = room->share[side] * fit->tangent[side / 2];

@@ -38,8 +38,8 @@ int cgt_layout_cut(const text_font *font, const char *text, float width, char *t
     return is_cut;
 }
 
-/* Wraps a text to at most so many lines, at blanks. Returns 0, or -1 where it does not fit; with `cuts` the last line is
- * cut then. */
+/* Wraps a text to at most so many lines, at blanks. Returns 0, or -1 where it does not fit; with `cuts` the last line
+ * is cut then. */
 static int wrap(const text_font *font, const char *text, float width, uint32_t most, int cuts, layout_text *lines)
 {
     lines->count = 0;

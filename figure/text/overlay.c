@@ -30,6 +30,7 @@ enum { NUMBER_SIZE = 64 };
 static size_t format_number(const char *format, const overlay_frame *f, char text[NUMBER_SIZE])
 {
     const size_t time = time_length(format);
+    text[0] = '\0';
     if (time && !isnan(f->time)) {
         const number_text number = time == 6 ? cgt_number(6, f->time) : cgt_fixed(format[7] - '0', f->time);
         snprintf(text, NUMBER_SIZE, "%s", number.text);
@@ -71,7 +72,8 @@ static float digit_width(const text_font *font)
 static float draw_number(const overlay *o, const canvas *c, float x, float y, const char *text)
 {
     const float cell = digit_width(o->font), begin = x;
-    for (char letter[2] = ""; (letter[0] = *text) != '\0'; text++) {
+    for (; *text; text++) {
+        const char letter[2] = {*text, '\0'};
         const float own = cgt_text_width(o->font, letter), width = *text >= '0' && *text <= '9' ? cell : own;
         if (c)
             cgt_text_draw(o->font, c, x + 0.5f * (width - own), y, letter, o->color);
@@ -268,7 +270,8 @@ static void draw_legend(const overlay *o, const canvas *c)
         draw_lines(o, c, &l->legend_title, all->x0, all->y0, 0);
     cgt_text_set_size(o->font, size);
     for (uint32_t i = 0; i < l->lines + (o->kind_count > l->lines); i++) {
-        const float x = all->x0 + l->column * (float)(i / l->rows), y = top + step * ((float)(i % l->rows) + 0.5f);
+        const uint32_t column = i / l->rows, row = i % l->rows;
+        const float x = all->x0 + l->column * (float)column, y = top + step * ((float)row + 0.5f);
         if (i < l->lines)
             draw_swatch(o, c, x + 0.5f * size, y, size, o->kinds[i].color);
         if (!o->font)

@@ -143,7 +143,7 @@ static FT_Face face_of(const text_font *font, uint32_t code)
             return font->face;
     if (o->count == OTHER_FONTS || o->lacking_count == LACKING)
         return font->face;
-    const FT_Face found = find_other(font, code);
+    FT_Face found = find_other(font, code);
     if (found)
         return o->face[o->count++] = found;
     o->lacking[o->lacking_count++] = code;
@@ -224,7 +224,7 @@ void cgt_text_set_size(text_font *font, float pixels)
 
 static float advance_of(const text_font *font, uint32_t code)
 {
-    const FT_Face face = face_of(font, code);
+    FT_Face face = face_of(font, code);
     return FT_Load_Char(face, code, FT_LOAD_TARGET_LIGHT) == 0 ? (float)face->glyph->advance.x / 64.0f : 0.0f;
 }
 
@@ -284,7 +284,7 @@ void cgt_text_draw(const text_font *font, const canvas *c, float x, float y, con
 {
     uint32_t code;
     while ((code = next_character(&utf8)) != 0) {
-        const FT_Face face = face_of(font, code);
+        FT_Face face = face_of(font, code);
         if (FT_Load_Char(face, code, FT_LOAD_RENDER | FT_LOAD_TARGET_LIGHT) != 0)
             continue;
         draw_bitmap(c, face->glyph, (int32_t)(x + 0.5f), (int32_t)(y + 0.5f), color);

@@ -27,8 +27,8 @@ size_t cgt_text_fit(const text_font *font, const char *utf8, float width);
 /* Width of a text in UTF-8, in pixels. What is no UTF-8 counts as one unknown character a byte. */
 float cgt_text_width(const text_font *font, const char *utf8);
 
-/* Appends the characters of a text that neither the font nor another installed one has to `missing`, each once, as far as it has room, and returns the
- * code of the first of them that was not there yet; 0: none. */
+/* Appends the characters of a text that neither the font nor another installed one has to `missing`, each once, as far
+ * as it has room, and returns the code of the first of them that was not there yet; 0: none. */
 uint32_t cgt_text_find_missing(const text_font *font, const char *utf8, char *missing, size_t size);
 
 /* Draws a text from x on, with its baseline at y; color is linear. */
