@@ -120,10 +120,11 @@ const option_row cgt_figure_rows[] = {
      "Swatches with the names of the types or elements that are drawn in any frame, with this title",
      TEXT(picture.legend), OTHERWISE("")},
     {"axes", 0, NULL, "The directions of x, y and z in a corner", FLAG(picture.axes)},
-    {"scale-bar", 0, "[LENGTH,]UNIT",
-     "A bar of a round length, or of this one, at the depth of the camera's target, where alone it is true unless with "
-     "--ortho; UNIT, such as nm, stands behind the number. Where the file has elements lengths are known, and the unit "
-     "is nm or Angstrom unless given; else LENGTH is in the file's unit",
+    {"scale-bar", 0, "LENGTH,UNIT",
+     "A bar of a round length, or of this one, with a unit such as nm; either may be left out. Without --ortho it is "
+     "true "
+     "at the depth of the camera's target alone. Where the file has elements lengths are known, and the unit is nm or "
+     "Angstrom unless given; else LENGTH is in the file's unit",
      PARSED(picture.scale, cgt_parse_scale_bar), OTHERWISE("")},
     {"label", 0, "FORMULA",
      "Label the spheres for which the formula is not 0, such as 'id == 5' or 'name == CA and resid < 9', at most 300; "
