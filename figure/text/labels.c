@@ -53,11 +53,7 @@ static int find_place(const overlay *o, const canvas *c, const text_label *label
 static void draw_label(const overlay *o, const canvas *c, const char *text, float x, float y, float size)
 {
     const float grey = o->color[0] > 0.5f ? 0.01f : 0.85f, rim[3] = {grey, grey, grey};
-    const float width = fmaxf(1.0f, roundf(0.07f * size));
-    for (int i = 0; i < 8; i++) {
-        const float angle = 0.785398163f * (float)i;
-        cgt_text_draw(o->font, c, x + roundf(width * cosf(angle)), y + roundf(width * sinf(angle)), text, rim);
-    }
+    cgt_text_draw_rim(o->font, c, x, y, text, (uint32_t)fmaxf(1.0f, roundf(0.07f * size)), rim);
     cgt_text_draw(o->font, c, x, y, text, o->color);
 }
 

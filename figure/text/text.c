@@ -265,29 +265,50 @@ uint32_t cgt_text_find_missing(const text_font *font, const char *utf8, char *mi
     return first;
 }
 
-static void draw_bitmap(const canvas *c, FT_GlyphSlot glyph, int32_t x, int32_t y, const float color[3])
+static uint8_t value_at(const FT_Bitmap *b, int32_t i, int32_t j)
+{
+    return i < 0 || j < 0 || i >= (int32_t)b->width || j >= (int32_t)b->rows ? 0 : b->buffer[j * b->pitch + i];
+}
+
+/* The darkest of what lies around a pixel, at a distance. */
+static uint8_t value_around(const FT_Bitmap *b, int32_t i, int32_t j, int32_t far)
+{
+    static const int32_t sides[8][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+    const int32_t near = (181 * far + 128) / 256; /* on the diagonals */
+    uint8_t most = 0;
+    for (int k = 0; k < 8; k++) {
+        const int32_t by = k < 4 ? far : near;
+        const uint8_t value = value_at(b, i + by * sides[k][0], j + by * sides[k][1]);
+        most = value > most ? value : most;
+    }
+    return most;
+}
+
+/* rim: 0, or how far around the letter its rim is, which is drawn in its place. */
+static void draw_bitmap(const canvas *c, FT_GlyphSlot glyph, int32_t x, int32_t y, int32_t rim, const float color[3])
 {
     const FT_Bitmap *b = &glyph->bitmap;
     if (b->pixel_mode != FT_PIXEL_MODE_GRAY)
         return; /* a font of bitmaps */
     /* In linear light dark strokes look thinner than light ones, and small texts pale. */
     const int is_dark = color[0] + color[1] + color[2] < 0.6f;
-    for (uint32_t j = 0; j < b->rows; j++)
-        for (uint32_t i = 0; i < b->width; i++) {
-            const float share = (float)b->buffer[(ptrdiff_t)j * b->pitch + (ptrdiff_t)i] / 255.0f;
-            cgt_canvas_blend(c, x + glyph->bitmap_left + (int32_t)i, y - glyph->bitmap_top + (int32_t)j, color,
+    for (int32_t j = -rim; j < (int32_t)b->rows + rim; j++)
+        for (int32_t i = -rim; i < (int32_t)b->width + rim; i++) {
+            const float share = (float)(rim ? value_around(b, i, j, rim) : value_at(b, i, j)) / 255.0f;
+            cgt_canvas_blend(c, x + glyph->bitmap_left + i, y - glyph->bitmap_top + j, color,
                              is_dark ? sqrtf(share) : share);
         }
 }
 
-void cgt_text_draw(const text_font *font, const canvas *c, float x, float y, const char *utf8, const float color[3])
+void cgt_text_draw_rim(const text_font *font, const canvas *c, float x, float y, const char *utf8, uint32_t rim,
+                       const float color[3])
 {
     uint32_t code;
     while ((code = next_character(&utf8)) != 0) {
         FT_Face face = face_of(font, code);
         if (FT_Load_Char(face, code, FT_LOAD_RENDER | FT_LOAD_TARGET_LIGHT) != 0)
             continue;
-        draw_bitmap(c, face->glyph, (int32_t)(x + 0.5f), (int32_t)(y + 0.5f), color);
+        draw_bitmap(c, face->glyph, (int32_t)(x + 0.5f), (int32_t)(y + 0.5f), (int32_t)rim, color);
         x += (float)face->glyph->advance.x / 64.0f;
     }
 }
@@ -333,14 +354,21 @@ uint32_t cgt_text_find_missing(const text_font *font, const char *utf8, char *mi
     return 0;
 }
 
-void cgt_text_draw(const text_font *font, const canvas *c, float x, float y, const char *utf8, const float color[3])
+void cgt_text_draw_rim(const text_font *font, const canvas *c, float x, float y, const char *utf8, uint32_t rim,
+                       const float color[3])
 {
     (void)font;
     (void)c;
     (void)x;
     (void)y;
     (void)utf8;
+    (void)rim;
     (void)color;
 }
 
 #endif
+
+void cgt_text_draw(const text_font *font, const canvas *c, float x, float y, const char *utf8, const float color[3])
+{
+    cgt_text_draw_rim(font, c, x, y, utf8, 0, color);
+}

@@ -34,4 +34,8 @@ uint32_t cgt_text_find_missing(const text_font *font, const char *utf8, char *mi
 /* Draws a text from x on, with its baseline at y; color is linear. */
 void cgt_text_draw(const text_font *font, const canvas *c, float x, float y, const char *utf8, const float color[3]);
 
+/* Draws the rim of a text, so many pixels around its letters, in place of them. rim 0: the text. */
+void cgt_text_draw_rim(const text_font *font, const canvas *c, float x, float y, const char *utf8, uint32_t rim,
+                       const float color[3]);
+
 #endif
