@@ -260,7 +260,8 @@ static int cut_legend(const layout_input *in, layout *l, float width, float heig
 
 static void place_legend(const layout_input *in, layout *l, area *a)
 {
-    static const attempt attempts[] = {{1, 1.0f}, {1, 0.85f}, {2, 1.0f}, {2, 0.85f}, {3, 0.85f}, {2, 0.7f}, {3, 0.7f}};
+    static const attempt attempts[] = {{1, 1.0f},  {1, 0.85f}, {2, 1.0f}, {2, 0.85f},
+                                       {3, 0.85f}, {1, 0.7f},  {2, 0.7f}, {3, 0.7f}};
     const float edge = layout_margin * in->size;
     const float most = a->right - (1.0f - share) * (float)in->width - edge - gap * in->size;
     const float above = fmaxf(a->top, edge), below = fminf(a->bottom, (float)in->height - edge);

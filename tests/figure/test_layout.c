@@ -168,6 +168,30 @@ TEST(usual_texts_find_room)
     cgt_text_close(font);
 }
 
+/* Names that fit in small letters are not told as cut; those that do not fit are cut, and lines beyond a few counted. */
+TEST(legends_shrink_before_they_are_cut)
+{
+    text_font *const font = open_font();
+    if (!font)
+        skip();
+    overlay_kind long_kinds[] = {{{1, 1, 1}, "a name that is rather long, yet not too long"}, {{1, 1, 1}, "water"}};
+    overlay o = make_overlay(font, 0, 480, 0.03f);
+    o.legend = "kinds";
+    o.kinds = long_kinds;
+    o.kind_count = 2;
+    cgt_overlay_place(&o, 640, 480);
+    assert_int_equal(o.layout.cut | o.layout.left_out, 0);
+    assert_true(o.layout.lines == 2 && o.layout.size[LAYOUT_LEGEND] < 0.75f * o.size);
+    cgt_overlay_place(&o, 400, 480);
+    assert_int_equal(o.layout.cut, 1u << LAYOUT_LEGEND);
+    assert_int_equal(o.layout.lines, 2);
+    o.kinds = kinds;
+    o.kind_count = 100;
+    cgt_overlay_place(&o, 640, 200);
+    assert_true(o.layout.lines > 4 && o.layout.lines <= OVERLAY_MOST_KINDS);
+    cgt_text_close(font);
+}
+
 /* What is drawn is where the layout says, but for the grey of a letter's edge. */
 TEST(texts_stay_in_their_rectangles)
 {
