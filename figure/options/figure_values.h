@@ -27,10 +27,11 @@ const char *cgt_split(const char *text, char mark, char *first, size_t room);
 /* ---- picture_values.c ---------------------------------------------------------------------------------------- */
 
 option_parser cgt_parse_size, cgt_parse_keys, cgt_parse_view, cgt_parse_coloring,
-    cgt_parse_category;                            /* figure_options */
-option_parser cgt_parse_range, cgt_parse_colormap; /* the same */
-option_parser cgt_parse_samples, cgt_parse_camera; /* uint32_t, camera_key */
-option_parser cgt_parse_sun, cgt_parse_lamp;       /* picture_options */
+    cgt_parse_category;                                       /* figure_options */
+option_parser cgt_parse_range, cgt_parse_colormap;            /* the same */
+option_parser cgt_parse_samples, cgt_parse_camera;            /* uint32_t, camera_key */
+option_parser cgt_parse_sun, cgt_parse_lamp, cgt_parse_label; /* picture_options */
+option_parser cgt_parse_scale_bar, cgt_parse_label_text;      /* scale_bar, const char * */
 
 /* ---- particle_values.c --------------------------------------------------------------------------------------- */
 

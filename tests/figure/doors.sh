@@ -106,6 +106,7 @@ if ! $emulator "$program" -q -n -s 8x8 --title A "$tmp/cube.obj" 2>&1 | grep -q 
     both grains.lammpstrj color=type legend=kinds type-name=2=water
     both words.xyz color=site_of legend type-name=ax=first hide='mol > 6'
     both words.xyz category='mol * 3' colorbar
+    both grains.lammpstrj scale-bar=2,m 'label=id < 9' 'label-text=#{id}' 'show=id > 2'
 fi
 
 refused 'there is no option "colour"' colour=red

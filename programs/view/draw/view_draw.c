@@ -173,9 +173,15 @@ static int bind(view_draw *d, const view_frame *f)
     expression *const all[] = {r->figure.formula,       r->figure.parts.show,     r->figure.parts.radius,
                                r->figure.parts.layer,   r->figure.parts.arrow[0], r->figure.parts.arrow[1],
                                r->figure.parts.arrow[2]};
+    label_rules *const labels = &r->figure.parts.labels;
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         if (all[i] && cgt_expression_bind(all[i], &f->frame, f->speed, r->error, sizeof r->error))
             return render_fail(r);
+    for (uint32_t i = 0; i <= labels->parts; i++) {
+        expression *const e = i < labels->parts ? labels->part[i].value : labels->which;
+        if (e && cgt_expression_bind(e, &f->frame, f->speed, r->error, sizeof r->error))
+            return render_fail(r);
+    }
     return 0;
 }
 
