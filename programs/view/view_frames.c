@@ -14,6 +14,7 @@
 
 #include "common/program.h"
 #include "common/stop_flag.h"
+#include "data/frame_copy.h"
 #include "trajectory/trajectory_status.h"
 
 typedef struct view_slot {
@@ -59,7 +60,7 @@ static view_frame *copy_frame(const frame_sequence *sequence, uint64_t chosen)
     view_frame *const f = calloc(1, sizeof *f);
     if (!f)
         return NULL;
-    f->clone = frame_clone(&sequence->frame, &f->bytes);
+    f->clone = cgt_frame_clone(&sequence->frame, &f->bytes);
     f->speed = sequence->speed ? malloc(speed_bytes ? speed_bytes : 1) : NULL;
     if (!f->clone || (sequence->speed && !f->speed)) {
         free_frame(f);
