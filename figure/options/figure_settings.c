@@ -111,6 +111,23 @@ int cgt_figure_settings_unset(figure_settings *s, const char *name, figure_optio
     return -1;
 }
 
+int cgt_figure_settings_copy(const figure_settings *from, figure_settings *to)
+{
+    *to = (figure_settings){.list = calloc(from->count + 1, sizeof *to->list)};
+    for (; to->list && to->count < from->count; to->count++) {
+        const char *const value = from->list[to->count].value;
+        char *const copy = value ? malloc(strlen(value) + 1) : NULL;
+        if (value && !copy) {
+            cgt_figure_settings_free(to);
+            return -1;
+        }
+        to->list[to->count] = (figure_setting){from->list[to->count].name, copy};
+        if (value)
+            memcpy(copy, value, strlen(value) + 1);
+    }
+    return to->list ? 0 : -1;
+}
+
 size_t cgt_figure_settings_print(const figure_settings *s, const char *name, char *text, size_t size)
 {
     size_t length = 0;

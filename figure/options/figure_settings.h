@@ -33,6 +33,9 @@ int cgt_figure_settings_unset(figure_settings *s, const char *name, figure_optio
  * -1 with a sentence. */
 int cgt_figure_settings_replay(const figure_settings *s, figure_options *options, char *error, size_t error_size);
 
+/* Copies all settings, with their values. Returns 0, or -1 where there is no memory. */
+int cgt_figure_settings_copy(const figure_settings *from, figure_settings *to);
+
 /* Copies the values of an option, a line each, or all as a settings file; returns the length of the whole text. */
 size_t cgt_figure_settings_print(const figure_settings *s, const char *name, char *text, size_t size);
 

@@ -1,0 +1,94 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Files of runs for a figure; see figure_run.h. */
+#include "playback/figure_run.h"
+
+#include <stdio.h>
+
+#include "common/program.h"
+#include "trajectory/trajectory_status.h"
+
+int figure_run_want_all(frame_source *source, char *error, size_t error_size)
+{
+    const char *names[CGT_TRAJECTORY_MOST_COLUMNS];
+    const cgt_trajectory_frame *const frame = &source->sequence->frame;
+    size_t count = 0;
+    int state = frame_source_read(source, 0, error, error_size);
+    if (state != 1)
+        return state;
+    for (uint32_t i = 0; i < frame->columns && count < CGT_TRAJECTORY_MOST_COLUMNS; i++)
+        names[count++] = frame->column[i].name;
+    if (trajectory_failed(source->file, cgt_trajectory_want_columns(source->file, names, count), error, error_size))
+        return -1;
+    return frame_source_rewind(source, error, error_size) ? -1 : 1;
+}
+
+int figure_run_look(cgt_figure *figure, frame_source *source, figure_run_survey *survey, char *error, size_t error_size)
+{
+    const cgt_figure_data data = {.frame = &source->sequence->frame};
+    program_progress progress;
+    uint64_t number = 0;
+    int state = 1, failed = 0;
+    frame_keep_begin(&source->keep);
+    program_progress_start(&progress, "reading", "frames", 0.0, survey->quiet);
+    while (!*survey->stop && !failed && number < survey->most && (!number || cgt_figure_needs_frame(figure))) {
+        state = frame_source_read(source, number, error, error_size);
+        if (state != 1)
+            break;
+        failed = cgt_figure_survey(figure, &data) != CGT_OK;
+        number++;
+        program_progress_update(&progress, (double)number, cgt_trajectory_progress(source->file));
+    }
+    program_progress_end(&progress);
+    frame_keep_end(&source->keep, state == 0 && !source->follows);
+    survey->has_total = state != 1;
+    survey->frames = survey->total = number;
+    survey->is_cut = state < 0;
+    if (*survey->stop)
+        snprintf(error, error_size, "interrupted");
+    else if (failed)
+        cgt_figure_get_error_message(figure, error, error_size);
+    if (*survey->stop || failed || (state < 0 && number == 0))
+        return -1;
+    return frame_source_rewind(source, error, error_size);
+}
+
+/* Reads the frame `number`, at least source->next, and gives it to the figure. */
+static int give(cgt_figure *figure, frame_source *source, uint64_t number, cgt_figure_frame **frame, char *error,
+                size_t error_size)
+{
+    const cgt_figure_data data = {.frame = &source->sequence->frame};
+    char text[PROGRAM_ERROR_SIZE];
+    const int state = frame_source_read(source, number, error, error_size);
+    if (state != 1)
+        return state;
+    const int failed = cgt_figure_keep(figure, &data, frame, text, sizeof text) != CGT_OK;
+    if (failed)
+        snprintf(error, error_size, "%s", text);
+    else if (*text)
+        program_error("%s", text);
+    return failed ? -1 : 1;
+}
+
+int figure_run_keep(cgt_figure *figure, frame_source *source, uint64_t lead, uint64_t number, cgt_figure_frame **frame,
+                    char *error, size_t error_size)
+{
+    uint64_t next = number > lead ? number - lead : 0;
+    int state = 1;
+    if (number < source->next && frame_source_rewind(source, error, error_size))
+        return -1;
+    if (number == 0 && source->looks_ahead && cgt_trajectory_can_rewind(source->file)) {
+        source->looks_ahead = 0;
+        state = give(figure, source, 0, NULL, error, error_size);
+        if (state != 1)
+            return state;
+        give(figure, source, 1, NULL, error, error_size); /* where there is one */
+        if (frame_source_rewind(source, error, error_size))
+            return -1;
+    }
+    next = next > source->next ? next : source->next;
+    for (; state == 1 && next <= number; next++)
+        state = give(figure, source, next, next == number ? frame : NULL, error, error_size);
+    return state;
+}
