@@ -19,6 +19,8 @@
 void cgt_figure_forget(cgt_figure *figure)
 {
     const camera_keys keys = figure->options.keys;
+    const frame_sequence told = {.is_endless = figure->sequence.is_endless,
+                                 .is_followed = figure->sequence.is_followed};
     const notices untold = figure->notices;
     if (figure->is_surveying)
         cgt_survey_end(&figure->team);
@@ -34,6 +36,7 @@ void cgt_figure_forget(cgt_figure *figure)
     figure->notices = untold;
     memset((char *)figure + offsetof(struct cgt_figure, origin), 0,
            sizeof *figure - offsetof(struct cgt_figure, origin));
+    figure->sequence = told; /* once is enough */
 }
 
 void cgt_figure_begin_again(cgt_figure *figure)

@@ -234,8 +234,8 @@ CGT_API cgt_result cgt_figure_fit(cgt_figure *figure);
 
 /* ---- Pictures ----------------------------------------------------------------------------------------------- */
 
-/* Sets what is asked while a picture is made: true ends the call with STOPPED. NULL: nothing. Quick pictures do not
- * ask. */
+/* Sets what is asked while pictures are made that begin from now on: true ends the call with STOPPED. NULL: nothing.
+ * Quick pictures do not ask. */
 CGT_API void cgt_figure_set_stop(cgt_figure *figure, bool (*stop)(const void *user), const void *user);
 
 /* Makes a whole picture of the option size with its texts.

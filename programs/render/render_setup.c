@@ -29,13 +29,6 @@ int render_result(renderer *r, int result)
     return result;
 }
 
-void renderer_print_camera(const renderer *r, const cgt_camera *camera, FILE *to)
-{
-    char text[FIGURE_CAMERA_SIZE];
-    cgt_figure_name_camera(&r->figure, camera, text);
-    fputs(text, to);
-}
-
 static int make_folders(renderer *r)
 {
     const render_options *o = &r->options;
@@ -212,7 +205,8 @@ static int prepare_pictures(renderer *r)
     return render_picture_setup(r);
 }
 
-int render_check_kind(void *user, const cgt_trajectory_frame *frame)
+/* Refuses options that do not fit the kind of the file's first frame; user: the renderer. */
+static int check_kind(void *user, const cgt_trajectory_frame *frame)
 {
     const renderer *const r = user;
     const render_options *o = &r->options;
@@ -270,20 +264,10 @@ static int start_threads(renderer *r)
     reader->next = r->begin;
     reader->end = end_of_frames(r);
     reader->stop = r->stop;
-    reader->check = render_check_kind;
+    reader->check = check_kind;
     reader->user = r;
     reader->figure = &r->figure;
     return render_reader_start(reader);
-}
-
-int render_prepare(renderer *r)
-{
-    cgt_figure *const figure = &r->figure;
-    if (render_create_context(&r->options, &r->context) || open_input(r) ||
-        render_result(r, cgt_figure_choose_colors(figure)) || open_mesh(r) ||
-        render_result(r, cgt_figure_choose_camera(figure)) || render_result(r, cgt_figure_settle(figure)))
-        return -1;
-    return prepare_pictures(r);
 }
 
 int render_setup(renderer *r)
@@ -292,7 +276,11 @@ int render_setup(renderer *r)
     for (uint32_t i = 0; i < r->options.output_count; i++)
         if (render_output_kind(r->options.outputs[i].pattern) == OUTPUT_RAW)
             r->summary = stderr;
-    if (render_prepare(r))
+    cgt_figure *const figure = &r->figure;
+    if (render_create_context(&r->options, &r->context) || open_input(r) ||
+        render_result(r, cgt_figure_choose_colors(figure)) || open_mesh(r) ||
+        render_result(r, cgt_figure_choose_camera(figure)) || render_result(r, cgt_figure_settle(figure)) ||
+        prepare_pictures(r))
         return -1;
     if (r->options.cell.mode && render_cell_create(r))
         return -1;
@@ -303,7 +291,8 @@ void render_close(renderer *r)
 {
     render_reader_finish(&r->reader);
     render_cell_release(r->cell);
-    render_picture_close(r);
+    free(r->settings);
+    free(r->options.settings);
     cgt_coloring_free(&r->reader.coloring);
     frame_source_close(&r->source);
     cgt_figure_close(&r->figure);

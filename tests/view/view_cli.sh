@@ -98,7 +98,7 @@ say
 END
 same view_0000.png
 says out 'selected sphere [0-9]*, type [0-9], [CHNO]'
-says out '--bounces=4 .*--floor-axis=z .*--floor-place=.*--show='
+says out '--bounces=4 .*--show=.*--floor-axis=z .*--floor-place='
 rm -f "$tmp"/view_*
 view 0 --style plain --floor=red --floor-height -1 --transparent --title T --up y -a 1 "$data/caffeine.xyz" <<'END'
 settle
