@@ -2,12 +2,34 @@
  * SPDX-License-Identifier: MIT
  *
  * Files of runs for a figure; see figure_run.h. */
+#define _POSIX_C_SOURCE 200809L
 #include "playback/figure_run.h"
 
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "common/program.h"
+#include "options/option_row.h"
 #include "trajectory/trajectory_status.h"
+
+cgt_result figure_run_set(cgt_figure *figure, const char *settings)
+{
+    char *const text = strdup(settings);
+    cgt_result result = text ? CGT_OK : CGT_ERROR_OUT_OF_MEMORY;
+    for (char *line = text, *next; line && *line && !result; line = next) {
+        next = line + strcspn(line, "\n");
+        next += *next == '\n';
+        line[strcspn(line, "\n")] = '\0';
+        char *const equals = strstr(line, " = ");
+        if (equals)
+            *equals = '\0';
+        if (cgt_figure_find_row(line))
+            result = cgt_figure_set(figure, line, equals ? equals + 3 : NULL);
+    }
+    free(text);
+    return result;
+}
 
 int figure_run_want_all(frame_source *source, char *error, size_t error_size)
 {

@@ -21,6 +21,9 @@ typedef struct figure_run_survey {
     int is_cut; /* the file goes on after them, with an error */
 } figure_run_survey;
 
+/* Sets the options of lines "name = value" or "name" that are the figure's, and leaves out others. */
+cgt_result figure_run_set(cgt_figure *figure, const char *settings);
+
 /* Has all columns of the file read, at its first frame, which becomes that of the sequence. Returns 1, 0 where there is
  * no frame, or -1 with a text. */
 int figure_run_want_all(frame_source *source, char *error, size_t error_size);

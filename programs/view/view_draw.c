@@ -6,11 +6,9 @@
 #include "view/view_draw.h"
 
 #include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
 #include "common/program.h"
-#include "options/option_row.h"
 #include "render/render_input.h"
 
 static int fail(const char *sentence)
@@ -45,29 +43,6 @@ char *view_draw_get(const view_draw *d, view_draw_getter *get, const char *name)
 int view_draw_has(const view_draw *d, const char *name) { return cgt_figure_get(d->figure, name, NULL, 0) > 0; }
 
 /* ---- Opening ------------------------------------------------------------------------------------------------ */
-
-/* Those of the command line, lines "name = value", that are about the figure. */
-static int give_options(view_draw *d, char *settings)
-{
-    if (view_draw_tell(d, cgt_figure_set(d->figure, "antialias", "2")))
-        return -1;
-    for (char *line = settings, *next; *line; line = next) {
-        next = line + strcspn(line, "\n");
-        next += *next == '\n';
-        char text[PROGRAM_ERROR_SIZE];
-        const size_t length = (size_t)(next - line) - (next > line && next[-1] == '\n');
-        if (length >= sizeof text)
-            return fail("an option of the command line is too long");
-        memcpy(text, line, length);
-        text[length] = '\0';
-        char *const equals = strstr(text, " = ");
-        if (equals)
-            *equals = '\0';
-        if (cgt_figure_find_row(text) && view_draw_tell(d, cgt_figure_set(d->figure, text, equals ? equals + 3 : NULL)))
-            return -1;
-    }
-    return 0;
-}
 
 /* All frames of small files, and where a legend names what any frame has, a floor lies below all, glass is as dark as
  * the run is large; else the first few: the window is to open at once. */
@@ -155,8 +130,9 @@ view_draw *view_draw_open(const view_options *options)
     }
     d->options = options->render;
     if (render_create_context(&d->options, &d->context) == 0 && cgt_figure_create(d->context, &d->figure) == CGT_OK &&
-        give_options(d, d->options.settings) == 0 && open_input(d) == 0 && survey_input(d) == 0 &&
-        view_draw_tell(d, cgt_figure_begin_keep(d->figure, &lead)) == 0 &&
+        view_draw_tell(d, cgt_figure_set(d->figure, "antialias", "2")) == 0 &&
+        view_draw_tell(d, figure_run_set(d->figure, d->options.settings)) == 0 && open_input(d) == 0 &&
+        survey_input(d) == 0 && view_draw_tell(d, cgt_figure_begin_keep(d->figure, &lead)) == 0 &&
         (d->shows = view_draw_get(d, cgt_figure_get, "show")) != NULL)
         return d;
     view_draw_close(d);

@@ -229,7 +229,7 @@ static void take_frame(viewer *v)
     v->build_cost = 0.8 * v->build_cost + 0.2e3 * (program_seconds() - begin);
     view_frames_release(v->frames, v->shown);
     v->shown = frame;
-    v->is_arriving = v->is_arriving && !frame_primitives(&frame->frame);
+    v->is_arriving = v->is_arriving && !figure_run_shows(frame->kept);
     v->wanted += (uint64_t)v->is_arriving;
     v->outdated = 1;
     v->changed = 1;
