@@ -46,34 +46,27 @@ int figure_run_want_all(frame_source *source, char *error, size_t error_size)
     return frame_source_rewind(source, error, error_size) ? -1 : 1;
 }
 
-int figure_run_look(cgt_figure *figure, frame_source *source, figure_run_survey *survey, char *error, size_t error_size)
+typedef struct looking {
+    cgt_figure *figure;
+    const cgt_trajectory_frame *frame;
+} looking;
+
+static int look(void *user, char *error, size_t error_size)
 {
-    const cgt_figure_data data = {.frame = &source->sequence->frame};
-    program_progress progress;
-    uint64_t number = 0;
-    int state = 1, failed = 0;
-    frame_keep_begin(&source->keep);
-    program_progress_start(&progress, "reading", "frames", 0.0, survey->quiet);
-    while (!*survey->stop && !failed && number < survey->most && (!number || cgt_figure_needs_frame(figure))) {
-        state = frame_source_read(source, number, error, error_size);
-        if (state != 1)
-            break;
-        failed = cgt_figure_survey(figure, &data) != CGT_OK;
-        number++;
-        program_progress_update(&progress, (double)number, cgt_trajectory_progress(source->file));
-    }
-    program_progress_end(&progress);
-    frame_keep_end(&source->keep, state == 0 && !source->follows);
-    survey->has_total = state != 1;
-    survey->frames = survey->total = number;
-    survey->is_cut = state < 0;
-    if (*survey->stop)
-        snprintf(error, error_size, "interrupted");
-    else if (failed)
-        cgt_figure_get_error_message(figure, error, error_size);
-    if (*survey->stop || failed || (state < 0 && number == 0))
-        return -1;
-    return frame_source_rewind(source, error, error_size);
+    const looking *const l = user;
+    const cgt_figure_data data = {.frame = l->frame};
+    if (cgt_figure_survey(l->figure, &data) == CGT_OK)
+        return !cgt_figure_needs_frame(l->figure);
+    cgt_figure_get_error_message(l->figure, error, error_size);
+    return -1;
+}
+
+int figure_run_look(cgt_figure *figure, frame_source *source, survey_walk *walk, char *error, size_t error_size)
+{
+    looking user = {figure, &source->sequence->frame};
+    walk->look = look;
+    walk->user = &user;
+    return survey_walk_run(walk, source, error, error_size);
 }
 
 /* Reads the frame `number`, at least source->next, and gives it to the figure. */

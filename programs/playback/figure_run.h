@@ -8,18 +8,7 @@
 
 #include <cgt/figure.h>
 
-#include "common/stop_flag.h"
-#include "playback/frame_source.h"
-
-typedef struct figure_run_survey {
-    uint64_t most;         /* looks at the first frames alone, this many, or fewer where the figure needs no more */
-    int quiet;             /* no progress on the terminal */
-    const stop_flag *stop; /* not 0: ends the survey with an error */
-    /* Found: */
-    uint64_t frames, total; /* looked at; of the file, where has_total */
-    int has_total;
-    int is_cut; /* the file goes on after them, with an error */
-} figure_run_survey;
+#include "playback/survey_run.h"
 
 /* Sets the options of lines "name = value" or "name" that are the figure's, and leaves out others. */
 cgt_result figure_run_set(cgt_figure *figure, const char *settings);
@@ -28,10 +17,9 @@ cgt_result figure_run_set(cgt_figure *figure, const char *settings);
  * no frame, or -1 with a text. */
 int figure_run_want_all(frame_source *source, char *error, size_t error_size);
 
-/* Has the figure look at frames from the first on, and goes back to the start. Where an error follows some whole frames
- * it surveys those, and reading them again ends in the error. Returns 0, or -1 with a text. */
-int figure_run_look(cgt_figure *figure, frame_source *source, figure_run_survey *survey, char *error,
-                    size_t error_size);
+/* Has the figure look at frames by a walk, whose look is set here, as long as it needs them. Returns 0, or -1 with a
+ * text. */
+int figure_run_look(cgt_figure *figure, frame_source *source, survey_walk *walk, char *error, size_t error_size);
 
 /* Keeps the frame `number`, after the `lead` before it; those before are skipped unread. source->looks_ahead: the first
  * frame has the speeds towards the second, where the input can be read again. Returns 1, 0 where the file ends before,

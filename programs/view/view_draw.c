@@ -95,7 +95,7 @@ static int survey_input(view_draw *d)
 {
     const render_options *const o = &d->options;
     char error[PROGRAM_ERROR_SIZE];
-    d->survey = (figure_run_survey){.most = choose_survey(o), .quiet = o->quiet, .stop = &d->stop};
+    d->survey = (survey_walk){.most = choose_survey(o), .quiet = o->quiet, .stop = &d->stop};
     for (;;) {
         if (set_mesh(d))
             return -1;

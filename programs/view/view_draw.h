@@ -20,7 +20,7 @@ typedef struct view_draw {
     frame_source source; /* until the frames are started */
     frame_sequence raw;  /* its frames as they are */
     cgt_trajectory *mesh;
-    figure_run_survey survey;
+    survey_walk survey;
     int has_moved; /* an origin was chosen, */
     double origin[3];
     char *shows; /* the conditions of the command line, a line each */

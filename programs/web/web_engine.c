@@ -148,7 +148,7 @@ static int survey_file(const char *path)
     const off_t large = 64 << 20; /* bytes */
     static const stop_flag never = 0;
     struct stat info;
-    figure_run_survey survey = {
+    survey_walk survey = {
         .most = stat(path, &info) == 0 && info.st_size > large ? 4 : UINT64_MAX, .quiet = 1, .stop = &never};
     double origin[3];
     for (int turn = 0; turn < 2; turn++) {
