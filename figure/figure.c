@@ -147,24 +147,27 @@ bool cgt_figure_get_option(uint32_t index, cgt_figure_option *option)
     return false;
 }
 
-cgt_result cgt_figure_set(cgt_figure *figure, const char *name, const char *value)
+static cgt_result change(cgt_figure *figure, settings_change change, const char *name, const char *value)
 {
     if (figure->keeping.is_on && figure->is_settled)
-        return cgt_figure_change(figure, name, value, 1);
-    if (cgt_figure_settings_set(&figure->given, name, value, &figure->options, figure->message, sizeof figure->message))
+        return cgt_figure_change(figure, change, name, value);
+    if (cgt_figure_settings_change(&figure->given, change, name, value, &figure->options, figure->message,
+                                   sizeof figure->message))
         return cgt_figure_result(figure);
     cgt_figure_forget(figure);
     return CGT_OK;
 }
 
-cgt_result cgt_figure_unset(cgt_figure *figure, const char *name)
+cgt_result cgt_figure_set(cgt_figure *figure, const char *name, const char *value)
 {
-    if (figure->keeping.is_on && figure->is_settled)
-        return cgt_figure_change(figure, name, NULL, 0);
-    if (cgt_figure_settings_unset(&figure->given, name, &figure->options, figure->message, sizeof figure->message))
-        return cgt_figure_result(figure);
-    cgt_figure_forget(figure);
-    return CGT_OK;
+    return change(figure, SETTINGS_SET, name, value);
+}
+
+cgt_result cgt_figure_unset(cgt_figure *figure, const char *name) { return change(figure, SETTINGS_UNSET, name, NULL); }
+
+cgt_result cgt_figure_set_lines(cgt_figure *figure, const char *settings)
+{
+    return change(figure, SETTINGS_LINES, NULL, settings);
 }
 
 size_t cgt_figure_get(const cgt_figure *figure, const char *name, char *text, size_t size)

@@ -305,6 +305,17 @@ static void find_kept(const cgt_figure *figure, const char *name, figure_found *
     memcpy(was->has_elements, figure->survey.has_elements, sizeof was->has_elements);
 }
 
+/* Frames that are kept stay as they were taken. */
+static int check_keeping(cgt_figure *figure, const figure_options *next)
+{
+    const figure_options *const o = &figure->options;
+    const char *const name = cgt_figure_unwraps(o) != cgt_figure_unwraps(next)
+                                 ? (o->whole || next->whole ? "whole" : "unwrap")
+                             : o->particles.trails != next->particles.trails ? "trails"
+                                                                             : NULL;
+    return name ? cgt_figure_fail(figure, "%s: the frames that are kept were taken otherwise", name) : 0;
+}
+
 /* Has the figure follow the options `next`; where it cannot, those of its settings again. */
 static int follow(cgt_figure *figure, const char *name, figure_options *next)
 {
@@ -333,20 +344,16 @@ static int follow(cgt_figure *figure, const char *name, figure_options *next)
     return -1;
 }
 
-cgt_result cgt_figure_change(cgt_figure *figure, const char *name, const char *value, int is_set)
+cgt_result cgt_figure_change(cgt_figure *figure, settings_change change, const char *name, const char *value)
 {
-    char *const message = figure->message;
     figure_settings next = {.count = 0};
     figure_options *const options = calloc(1, sizeof *options); /* too large for some stacks */
     int failed = 1;
-    if (name && is_among(name, " unwrap whole trails "))
-        cgt_figure_fail(figure, "%s: the frames that are kept were taken without it", name);
-    else if (!options || cgt_figure_settings_copy(&figure->given, &next))
+    if (!options || cgt_figure_settings_copy(&figure->given, &next))
         cgt_figure_fail(figure, "out of memory for options");
-    else
-        failed = (is_set ? cgt_figure_settings_set(&next, name, value, options, message, sizeof figure->message)
-                         : cgt_figure_settings_unset(&next, name, options, message, sizeof figure->message)) ||
-                 follow(figure, name, options);
+    else if (cgt_figure_settings_change(&next, change, name, value, options, figure->message, sizeof figure->message) ==
+             0)
+        failed = check_keeping(figure, options) || follow(figure, name, options);
     if (!failed) {
         const figure_settings before = figure->given;
         figure->given = next;

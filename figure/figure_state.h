@@ -149,8 +149,8 @@ void cgt_figure_unshow(cgt_figure *figure);
 void cgt_figure_forget(cgt_figure *figure);
 void cgt_figure_begin_again(cgt_figure *figure);
 
-/* cgt_figure_set, or _unset, where frames are kept (figure_frame.c). */
-cgt_result cgt_figure_change(cgt_figure *figure, const char *name, const char *value, int is_set);
+/* The calls that change options, where frames are kept (figure_frame.c). */
+cgt_result cgt_figure_change(cgt_figure *figure, settings_change change, const char *name, const char *value);
 
 /* ---- Before the first picture (figure_settle.c) ---- */
 

@@ -150,6 +150,10 @@ CGT_API bool cgt_figure_get_option(uint32_t index, cgt_figure_option *option);
  *         trails where frames are kept), OUT_OF_MEMORY; where frames are kept as cgt_figure_show, too */
 CGT_API cgt_result cgt_figure_set(cgt_figure *figure, const char *name, const char *value);
 
+/* Sets options by lines "name = value", or "name" alone, of a settings file, in their order; what needs several of them
+ * is checked after the last, and a line that is refused has none of them set. Errors: as cgt_figure_set */
+CGT_API cgt_result cgt_figure_set_lines(cgt_figure *figure, const char *settings);
+
 /* Takes back all that was set of an option; NULL: of all options. Errors: as cgt_figure_set */
 CGT_API cgt_result cgt_figure_unset(cgt_figure *figure, const char *name);
 

@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: MIT
  *
  * Files of runs for a figure; see figure_run.h. */
-#define _POSIX_C_SOURCE 200809L
 #include "playback/figure_run.h"
 
 #include <stdio.h>
@@ -13,20 +12,22 @@
 #include "options/option_row.h"
 #include "trajectory/trajectory_status.h"
 
-cgt_result figure_run_set(cgt_figure *figure, const char *settings)
+cgt_result figure_run_set(cgt_figure *figure, const char *first, const char *settings)
 {
-    char *const text = strdup(settings);
-    cgt_result result = text ? CGT_OK : CGT_ERROR_OUT_OF_MEMORY;
-    for (char *line = text, *next; line && *line && !result; line = next) {
-        next = line + strcspn(line, "\n");
-        next += *next == '\n';
-        line[strcspn(line, "\n")] = '\0';
-        char *const equals = strstr(line, " = ");
-        if (equals)
-            *equals = '\0';
-        if (cgt_figure_find_row(line))
-            result = cgt_figure_set(figure, line, equals ? equals + 3 : NULL);
+    char *const text = malloc(strlen(first) + strlen(settings) + 1), name[64];
+    size_t used = strlen(first);
+    cgt_result result = CGT_ERROR_OUT_OF_MEMORY;
+    if (text)
+        memcpy(text, first, used + 1);
+    for (const char *line = settings; text && *line;) {
+        const size_t length = strcspn(line, "\n") + 1;
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(line, " \n"), line);
+        if (cgt_figure_find_row(name))
+            used += (size_t)snprintf(text + used, length + 1, "%.*s", (int)length, line);
+        line += line[length - 1] ? length : length - 1;
     }
+    if (text)
+        result = cgt_figure_set_lines(figure, text);
     free(text);
     return result;
 }

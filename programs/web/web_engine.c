@@ -180,7 +180,7 @@ static int open_file(const char *path, const char *settings)
     cgt_figure_release(web.figure);
     web.figure = figure;
     cgt_figure_set_source(figure, strrchr(path, '/') ? strrchr(path, '/') + 1 : path);
-    if (check(figure_run_set(figure, settings)) ||
+    if (check(cgt_figure_set_lines(figure, settings)) ||
         frame_source_open(&web.file, &web.raw, &path, 1, &options, web.message, sizeof web.message))
         return fail_file();
     web.file.keep.most = kept;

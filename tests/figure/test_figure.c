@@ -111,6 +111,31 @@ TEST(values_count_in_the_order_in_which_they_were_set)
     cgt_figure_release(figure);
 }
 
+/* Lines are checked together, and set together or not at all. */
+TEST(lines_are_set_at_once)
+{
+    static const char lines[] =
+        "material = 2=glass\ntitle = a = b\naxes\nshow = heat > 1\nshow = heat < 5\nbounces = 2\n";
+    cgt_figure *const figure = make_figure();
+    char text[200], all[200];
+    snprintf(all, sizeof all, "size = 48x32\n%s", lines);
+    assert_int_equal(cgt_figure_set(figure, "material", "2=glass"), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_set_lines(figure, lines), CGT_OK);
+    cgt_figure_get(figure, NULL, text, sizeof text);
+    assert_string_equal(text, all);
+    assert_int_equal(cgt_figure_set_lines(figure, "\nfov = 40\nfog = 3"), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "there is no option \"fog\"");
+    assert_int_equal(cgt_figure_set_lines(figure, "axes=3\n"), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_set_lines(figure, "axes = 3\n"), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "axes: the option takes no value");
+    assert_int_equal(cgt_figure_set_lines(figure, "camera = 1,1,1,0,0,0,0,0,1,30\nfov = 3\n"),
+                     CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_set_lines(figure, ""), CGT_OK);
+    cgt_figure_get(figure, NULL, text, sizeof text);
+    assert_string_equal(text, all);
+    cgt_figure_release(figure);
+}
+
 TEST(a_refused_value_changes_nothing)
 {
     static const char *const wrong[][3] = {{"colour", "red", "there is no option \"colour\""},
@@ -415,7 +440,7 @@ TEST(options_change_what_is_shown)
                                            {"box", NULL, "has no box"},
                                            {"bonds", NULL, "has no bonds"},
                                            {"font", "no such file", NULL},
-                                           {"trails", "3", "trails: the frames that are kept were taken without it"},
+                                           {"trails", "3", "trails: the frames that are kept were taken otherwise"},
                                            {"unwrap", NULL, "unwrap: the frames"},
                                            {"whole", NULL, "whole: the frames"},
                                            {"fill", "x", "fill: "}};
@@ -511,7 +536,7 @@ TEST(what_was_chosen_makes_the_picture)
     const cgt_figure_data data = grains();
     const cgt_camera camera = {.eye = {9.0f, -7.0f, 5.0f}, .target = {2.0f, 1.0f, 0.5f}, .up = {0, 0, 1}, .fov = 33.3f};
     uint8_t hand[BYTES], again[BYTES];
-    char text[1000], *line;
+    char text[1000];
     cgt_camera fitted;
     float up[3];
     assert_int_equal(cgt_figure_get_chosen(figure, NULL, text, sizeof text), 0);
@@ -530,12 +555,7 @@ TEST(what_was_chosen_makes_the_picture)
     draw_shown(figure, hand);
     const size_t length = cgt_figure_get_chosen(figure, NULL, text, sizeof text);
     assert_int_equal(length, strlen(text));
-    for (line = strtok(text, "\n"); line; line = strtok(NULL, "\n")) {
-        char *const equals = strstr(line, " = ");
-        if (equals)
-            *equals = '\0';
-        assert_int_equal(cgt_figure_set(other, line, equals ? equals + 3 : NULL), CGT_OK);
-    }
+    assert_int_equal(cgt_figure_set_lines(other, text), CGT_OK);
     draw(other, &data, again);
     assert_memory_equal(again, hand, sizeof hand);
     assert_int_equal(cgt_figure_set(figure, "view", "front"), CGT_OK); /* ends the hand's */

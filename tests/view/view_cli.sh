@@ -77,7 +77,7 @@ same view_0000-2.png
 
 # Mirrors and glass, a floor, a transparent background; also after colours, hiding and the camera's up have changed.
 rm -f "$tmp"/view_*
-view 0 --bounces 4 --material 'C=glass' --material 'all=mirror' --floor "$data/caffeine.xyz" <<'END'
+view 0 --material 'C=glass' --material 'all=mirror' --bounces 4 --floor "$data/caffeine.xyz" <<'END'
 settle
 key f
 key z
