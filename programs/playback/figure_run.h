@@ -8,7 +8,7 @@
 
 #include <cgt/figure.h>
 
-#include "playback/survey_run.h"
+#include "playback/survey_walk.h"
 
 /* Sets the options of lines, as cgt_figure_set_lines, but leaves out those that are not the figure's. first: lines before
  * them. */
