@@ -276,9 +276,9 @@ static void follow_bulk(cgt_figure *figure)
     write_bounds(figure, was_min, was_max, bounds[1]);
     cgt_notices_add(&figure->notices,
                     "the camera follows the bulk, %s, and leaves out about %" PRIu64 " of %" PRIu64
-                    " %s of the run, which reaches %s",
-                    bounds[0], outside, s->drawable, s->kind == CGT_TRAJECTORY_TRIANGLES ? "triangles" : "spheres",
-                    bounds[1]);
+                    " %s%s of the run, which reaches %s",
+                    bounds[0], outside, s->drawable, s->hidden ? "shown " : "",
+                    s->kind == CGT_TRAJECTORY_TRIANGLES ? "triangles" : "spheres", bounds[1]);
 }
 
 int cgt_figure_choose_camera(cgt_figure *figure)
@@ -295,6 +295,8 @@ int cgt_figure_choose_camera(cgt_figure *figure)
     }
     cgt_figure_scene_bound(figure);
     if (!s->drawable) {
+        if (s->hidden)
+            cgt_notices_add(&figure->notices, "--show, --hide, --slice and --cut leave out all spheres of the run");
         for (int c = 0; c < 3; c++) {
             s->bounds_min[c] = -1.0f;
             s->bounds_max[c] = 1.0f;
@@ -371,6 +373,9 @@ int cgt_figure_settle(cgt_figure *figure)
 {
     figure_options *const o = &figure->options;
     drop_speeds(figure);
+    const int rays = (int)(o->samples * o->samples), is_first = !figure->shown;
+    if (is_first && o->picture.ambient > 0 && o->picture.ambient < rays)
+        cgt_notices_add(&figure->notices, "--ambient: each of a pixel's %d rays asks once: as with %d", rays, rays);
     cgt_figure_choose_ambient(figure);
     cgt_camera_path_at(&figure->path, 0.0, &figure->camera);
     cgt_figure_choose_light(figure);

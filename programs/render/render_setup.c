@@ -100,7 +100,7 @@ static int open_figure(renderer *r)
         return -1;
     }
     cgt_figure_set_stop(r->figure, stop_flag_is_set, r->stop);
-    return render_result(r, figure_run_set(r->figure, "", r->options.settings) || cgt_figure_open(r->figure) ? -1 : 0);
+    return render_result(r, figure_run_set(r->figure, r->options.settings) || cgt_figure_open(r->figure) ? -1 : 0);
 }
 
 static int open_source(renderer *r)
