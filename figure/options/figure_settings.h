@@ -26,8 +26,8 @@ typedef enum settings_change {
     SETTINGS_LINES  /* lines "name = value", which are checked together; the name does not count */
 } settings_change;
 
-/* Changes settings, and makes the options anew, whose texts are those of the settings. Returns 0, or -1 with a sentence:
- * nothing has changed. */
+/* Changes settings, and makes the options anew, whose texts are those of the settings. Returns 0, or -1 with a
+ * sentence: nothing has changed. */
 int cgt_figure_settings_change(figure_settings *s, settings_change change, const char *name, const char *value,
                                figure_options *options, char *error, size_t error_size);
 

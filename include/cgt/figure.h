@@ -161,9 +161,10 @@ CGT_API cgt_result cgt_figure_unset(cgt_figure *figure, const char *name);
  * settings file. Returns the length of the whole text; 0: nothing was set. */
 CGT_API size_t cgt_figure_get(const cgt_figure *figure, const char *name, char *text, size_t size);
 
-/* Copies what settings are for the shown frame: what was set, and in the place of automatic ones camera, size, antialias,
- * colours, range and floor as they were chosen: another figure with these makes the same picture of the frame. name: one
- * of these six alone, without its name. Returns as cgt_figure_get; 0: nothing was chosen yet. */
+/* Copies settings by which another figure makes the same picture of the shown frame: what was set, and in the place of
+ * automatic ones camera, size, antialias, color, range, floor-axis and floor-place as they were chosen.
+ *   name   the value of one of these seven; NULL: all settings
+ * Returns as cgt_figure_get; 0: nothing was chosen yet. */
 CGT_API size_t cgt_figure_get_chosen(const cgt_figure *figure, const char *name, char *text, size_t size);
 
 /* Sets a mesh that stands still among the particles, such as walls; its points, triangles and column normal are copied,
@@ -248,8 +249,8 @@ CGT_API void cgt_figure_set_stop(cgt_figure *figure, bool (*stop)(const void *us
  * Errors: INVALID_ARGUMENT (nothing is shown), OUT_OF_MEMORY, and those of cgt_picture_draw */
 CGT_API cgt_result cgt_figure_draw(cgt_figure *figure, const cgt_image *image, const cgt_trace_options *options);
 
-/* The same in steps, as cgt_picture_begin, _step and _read; the background is never transparent. After the last step the
- * picture is that of cgt_figure_draw. Errors: as cgt_figure_draw */
+/* The same in steps, as cgt_picture_begin, _step and _read; the background is never transparent. After the last step
+ * the picture is that of cgt_figure_draw. Errors: as cgt_figure_draw */
 CGT_API cgt_result cgt_figure_begin(cgt_figure *figure);
 CGT_API cgt_result cgt_figure_step(cgt_figure *figure, uint32_t samples, uint32_t *left);
 CGT_API cgt_result cgt_figure_read(cgt_figure *figure, const cgt_image *image);

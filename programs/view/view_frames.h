@@ -33,7 +33,8 @@ typedef struct view_frames_options {
     void *user;
 } view_frames_options;
 
-/* Takes the source over, which is open, at its first frame, and reads all columns. Returns NULL with the message printed. */
+/* Takes the source over, which is open, at its first frame, and reads all columns. Returns NULL with the message
+ * printed. */
 view_frames *view_frames_start(frame_source *source, const view_frames_options *options);
 
 /* Says which frame is wanted, and gives it where it is there, until view_frames_release; else NULL. */

@@ -297,7 +297,8 @@ EMSCRIPTEN_KEEPALIVE int web_draw(void)
                : 0;
 }
 
-/* Makes the picture of the options, then adds a step of soft light to it; begins: the first. Returns how many are left, or -1. */
+/* Makes the picture of the options, then adds a step of soft light to it; begins: the first. Returns how many are left,
+ * or -1. */
 EMSCRIPTEN_KEEPALIVE int web_grow(int begins)
 {
     const cgt_image image = {.bytes = web.pixels, .channels = 4};

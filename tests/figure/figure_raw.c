@@ -3,8 +3,8 @@
  *
  * Pictures of a file by <cgt/figure.h>, as bytes on standard output, for doors.sh to compare with cgt-render's.
  *   figure_raw COLUMNS|FRAMES|KEPT FILE [NAME[=VALUE]...]
- * COLUMNS: the frames' arrays are given as columns; FRAMES: the frames as they are; KEPT: the same, kept before they are
- * shown. The locale is that of the environment. */
+ * COLUMNS: the frames' arrays are given as columns; FRAMES: the frames as they are; KEPT: the same, kept before they
+ * are shown. The locale is that of the environment. */
 #include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
