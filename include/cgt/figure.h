@@ -24,7 +24,8 @@
  * subtracted from them.
  * Errors   Functions give a cgt_result; the figure has the sentence. A call of cgt_figure_set that fails changes
  *          nothing; after another one that fails the survey begins anew.
- * Threads  One thread at a time calls a figure; beside it one more may be in cgt_figure_keep.
+ * Threads  One thread at a time calls a figure; beside it one more may be in cgt_figure_keep, with the option trails
+ *          not while a frame is shown or an option set.
  * Numbers  are read and written with a point, whatever the locale of the process is. */
 #ifndef CGT_FIGURE_H
 #define CGT_FIGURE_H

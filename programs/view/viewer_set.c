@@ -35,6 +35,10 @@ static int change(viewer *v, const char *name, const char *value, int is_set)
         viewer_say(v, "size: the window has its own");
         return -1;
     }
+    if (v->shown && v->wanted != v->shown->chosen && view_draw_has(v->draw, "trails")) { /* the reader moves them on */
+        viewer_say(v, "%s: a frame with trails is being read: try again", name);
+        return -1;
+    }
     if (view_draw_tell(v->draw, cgt_figure_set_camera(figure, &v->camera)))
         return -1;
     cgt_figure_get_camera(figure, &before);
