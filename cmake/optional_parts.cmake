@@ -91,6 +91,19 @@ macro(cgt_find_RENDER)
     endforeach()
 endmacro()
 
+# CMake's own module, as projects that link the archive find it.
+macro(cgt_find_TEXT)
+    if(NOT EMSCRIPTEN AND NOT TARGET Freetype::Freetype)
+        find_package(Freetype QUIET)
+        if(TARGET Freetype::Freetype) # for projects that this one lies in
+            set_target_properties(Freetype::Freetype PROPERTIES IMPORTED_GLOBAL TRUE)
+        endif()
+    endif()
+    if(TARGET Freetype::Freetype)
+        set(CGT_HAVE_TEXT ON)
+    endif()
+endmacro()
+
 macro(cgt_find_VIEW)
     cgt_import(cgt_sdl2 SDL2/SDL.h SDL2)
     if(TARGET cgt_sdl2)

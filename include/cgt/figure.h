@@ -18,8 +18,6 @@
  * shown. The same options and frames give the same bytes as cgt-render's, for any number of threads and any variant;
  * texts depend on FreeType and the font.
  *
- * Not installed yet: programs of this source tree link it, and it may change.
- *
  * Conventions are those of cgt.h and picture.h. Options and data are in the data's own coordinates, whatever origin is
  * subtracted from them.
  * Errors   Functions give a cgt_result; the figure has the sentence. A call of cgt_figure_set that fails changes
