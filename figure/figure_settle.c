@@ -179,7 +179,9 @@ void cgt_figure_name_camera(const cgt_figure *figure, const cgt_camera *camera, 
 int cgt_figure_choose_colors(cgt_figure *figure)
 {
     const figure_options *o = &figure->options;
-    const coloring_by by = o->by == COLORING_AUTO ? cgt_coloring_choose(&figure->survey) : o->by;
+    const coloring_by by = figure->has_rgb          ? COLORING_PLAIN
+                           : o->by == COLORING_AUTO ? cgt_coloring_choose(&figure->survey)
+                                                    : o->by;
     const int axis = o->up[0] != 0.0f ? 0 : o->up[1] != 0.0f ? 1 : 2;
     double min = o->range_min, max = o->range_max;
     if (!o->has_range)

@@ -154,6 +154,9 @@ static int take_column(const data_reader *r, const cgt_figure_column *c)
         return -1;
     if (strcmp(c->name, "velocity") == 0)
         return take_velocity(r, c);
+    if (strcmp(c->name, "rgb") == 0)
+        return f->kind == CGT_TRAJECTORY_TRIANGLES ? refuse(r, "rgb: a column of colours is for particles")
+                                                   : take_vectors(r, c, &r->to->rgb);
     if (strcmp(c->name, "normal") == 0 && f->kind == CGT_TRAJECTORY_TRIANGLES)
         return take_vectors(r, c, &f->vertex_normal);
     float *const value = make(r, count, sizeof *value);

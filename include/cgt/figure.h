@@ -41,7 +41,8 @@ typedef struct cgt_figure cgt_figure;
 
 /* A column: what each particle or vertex has, floats, doubles or halves; id, type and element may be whole numbers.
  * Some names mean something: radius, id, type, element (atomic number), velocity (three numbers), normal (three; of
- * vertices). Others are for formulas and colours. */
+ * vertices), rgb (three, linear; of particles, where no option says what colours show). Others are for formulas and
+ * colours. */
 typedef struct cgt_figure_column {
     const char *name;
     cgt_array values;
