@@ -52,11 +52,16 @@ _NAMES = {word[:-6]: word[-6:] for word in """
 _OF_BYTE = np.array([lib.cgt_srgb_decode(code) for code in range(256)], F4)
 
 
+def code_of(text: str) -> Optional[str]:
+    """A colour's name or code as "rrggbb"; None: it is neither."""
+    if re.fullmatch("#[0-9a-fA-F]{6}|#[0-9a-fA-F]{3}", text):
+        return text[1:] if len(text) == 7 else "".join(2 * digit for digit in text[1:])
+    return _NAMES.get(text.lower().replace(" ", ""))
+
+
 def _of_text(name: str, text: str) -> list:
     """Bytes of a colour's name or code."""
-    code = _NAMES.get(text.lower().replace(" ", ""))
-    if code is None and re.fullmatch("#[0-9a-fA-F]{6}|#[0-9a-fA-F]{3}", text):
-        code = text[1:] if len(text) == 7 else "".join(2 * digit for digit in text[1:])
+    code = code_of(text)
     if code is None:
         raise InvalidArgument(f"{name}: {text!r}: must be a colour's name, or #rrggbb")
     return [int(code[k:k + 2], 16) for k in (0, 2, 4)]

@@ -111,9 +111,8 @@ CALLS = {  # each with what is no number of its arguments, and its arguments
     MESH_RAYS.intersects_first: (set(), OF_MESH),
     MESH_RAYS.intersects_any: (set(), OF_MESH),
     MESH_RAYS.contains_points: (set(), {"points": (DOUBLES, X)}),
-    cgt.show: ({"colors", "map", "low", "high", "bonds", "camera", "window", "options"}, {
-        "positions": (FLOATS, X), "radii": (FLOATS, R), "bond_radius": (NUMBER, 0.1),
-        **{name: (WHOLE, 4) for name in ("ambient", "antialias", "width", "height")}}),
+    cgt.show: ({"colors", "bonds", "window", "options"}, {"data": (DOUBLES, X), "radii": (FLOATS, R)}),
+    cgt.Figure: ({"context", "options"}, {}),
 }
 OTHERS = {"camera": cgt.Camera(), "light": cgt.Light((1, 2, 3)), "lights": [cgt.Light((1, 2, 3))], "hits": HITS,
           "frame": SCENE.trace_camera(cgt.Camera(), 8, 6, ("t", "primitive", "geometry", "normal")), "window": False,
@@ -293,6 +292,7 @@ OTHER_NAMES = {"org": ("dir",), "dir": ("org",), "ray_directions": ("ray_origins
                "radius": ("types", "capsules"), "vertices": ("types", "index", "radius"), "types": ("type", "radius"),
                "indices": ("vertex", "index", "types"), "bonds": ("positions",), "radii": ("radius",),
                "positions": ("bonds", "radi", "centers", "geometries"), "geometry": ("geom",),
+               "data": ("positions",),
                "position": tuple(without(rays(), "org", "dir"))}
 
 
@@ -328,7 +328,7 @@ def test_no_argument_is_left_out():
                        != "_" and callable(getattr(cgt.Scene, name))]
     public += [call for name, call in vars(MESH_RAYS).items() if name[:4] in ("inte", "cont")]
     # take paths, words or objects, or are made by calls
-    given = set("""read sort_series Trajectory TrajectoryFrame Scene find_bodies fit_camera variants version Fields Hits
+    given = set("""read sort_series Trajectory TrajectoryFrame Scene find_bodies variants version Fields Hits
         Frame HitRows AllHits SingleHit add remove commit close prepare set_options trace_bounced_rays
         intersects_location
         """.split())

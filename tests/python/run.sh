@@ -40,6 +40,11 @@ for mode in linked loaded; do
     "$python" -m pytest -q --no-header -p no:cacheprovider --doctest-modules \
         --doctest-ignore-import-errors --pyargs cgt
 done
+if [ -e "$build/tests/figure_raw" ] && [ -e "$build/bin/cgt-render" ]; then
+    echo "== the bytes of cgt-render"
+    CGT_FIGURE_PYTHON=$python PYTHONPATH="$work/linked" sh "$source/tests/figure/doors.sh" "$build/bin/cgt-render" \
+        "$source/examples/data" "$build/tests/figure_raw"
+fi
 echo "== what is missing has a sentence"
 CGT_LIBRARY="$work/no/libcgt.so" "$python" -c 'import cgt' 2>"$work/error" && exit 1
 grep -q 'set CGT_LIBRARY to the path of libcgt.so' "$work/error"

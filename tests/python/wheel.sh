@@ -57,11 +57,11 @@ import sys
 
 import cgt
 
-picture = cgt.show([[0, 0, 0], [1, 0, 0]], 0.6, ["red", "gold"], width=64, height=48, window=False)
+picture = cgt.show([[0, 0, 0], [1, 0, 0]], 0.6, ["red", "gold"], size=(64, 48), window=False)
 assert len({tuple(p) for p in picture.pixels.reshape(-1, 3)}) > 9
 path = pathlib.Path(sys.argv[1]) / "two.xyz"
 path.write_text("1\n\nO 0 0 0\n" * 2)
 assert len(cgt.read(path)) == 2
 loaded = {line.split()[-1] for line in open("/proc/self/maps") if "libcgt" in line}
-assert len(loaded) == 3 and all(file.startswith(sys.argv[1]) for file in loaded), loaded
+assert len(loaded) == 4 and all(file.startswith(sys.argv[1]) for file in loaded), loaded
 END

@@ -1,0 +1,242 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+"""Figures: what options and data of Python's mean; the same data from other packages; movies, the window. That pictures
+have the bytes of cgt-render is compared by tests/figure/doors.sh."""
+import copy
+import os
+import pickle
+import shutil
+import subprocess
+import types
+
+import numpy as np
+import pytest
+
+try:
+    import cgt.figure
+    from cgt import _show
+except ImportError as error:
+    pytest.skip(str(error), allow_module_level=True)
+
+SIZE = {"size": (60, 40)}
+X = np.array([[0.0, 0, 0], [2, 0, 0], [4, 0.5, 1]])
+PAIRS = [[0, 1], [1, 2]]
+
+
+def pixels(data, options=(), **more):
+    return cgt.Figure(**SIZE, **dict(options)).show(data, **more).pixels
+
+
+def same(*pictures):
+    return all(np.array_equal(pictures[0], p) for p in pictures[1:]) and pictures[0].std() > 5
+
+
+def test_values_become_texts():
+    camera = cgt.Camera((0, -9, 1), up=(0, 0, 1))
+    figure = cgt.Figure(size=(60, 40), antialias=np.int64(2), camera=camera, title="A = b", range=[0.5, np.float32(2)],
+                        show=["x > 0", "y < 2"], sun=[(1, 2, 3), (3, 2, 1, 0.5)], bonds=True, lamp=(1, 2, 3.5), type_color={"O": "Tomato", 2: "#48f"}, background=(1.0, 0, 0), color="ff8000",
+                        shadows=False, log_scale=False, floor="forestgreen", fov=None)
+    assert figure.settings == """size = 60x40
+antialias = 2
+camera = 0,-9,1,0,0,0,0,0,1,45
+title = A = b
+range = 0.5,2.0
+show = x > 0
+show = y < 2
+sun = 1,2,3
+sun = 3,2,1,0.5
+bonds
+lamp = 1,2,3.5
+type-color = O=ff6347
+type-color = 2=4488ff
+background = ff0000
+color = ff8000
+no-shadows
+floor = 228b22
+"""
+    for other in (cgt.Figure(**figure.options), copy.copy(figure), pickle.loads(pickle.dumps(figure))):
+        assert other.settings == figure.settings and other.options == figure.options
+    figure.set(bonds=1.5, show="z > 0", shadows=True).unset("camera", "sun")
+    assert figure.options["show"] == ["z > 0"] and figure.options["bonds"] == "1.5" and "sun" not in figure.options
+    assert figure.options["shadows"] is True and "no_shadows" not in figure.options
+    assert cgt.Figure(camera=cgt.Camera((0, -9, 1), projection="orthographic")).options["ortho"] is True
+    assert figure.unset().options == {} and figure.size == (1280, 720)
+    known = cgt.figure.options()
+    assert known["text_size"].kind == "number" and known["style"].words == ("soft", "paper", "plain")
+
+
+def test_what_is_refused_changes_nothing():
+    figure = cgt.Figure(**SIZE, color="v").show(X, columns={"v": [1, 2, 3]})
+    before, settings = figure.pixels, figure.settings
+    for options, message in (
+        ({"colour": 1}, "there is no option 'colour': did you mean color"),
+        ({"title": True}, "title: True: must have a value, TEXT"),
+        ({"fov": "wide"}, "fov: "), ({"fov": {1: 2}}, "fov: it takes no dictionary"),
+        ({"style": "paper", "antialias": 3}, "antialias: 3 is not 1, 2 or 4"),
+        ({"material": {2: "glass"}}, "material is for bounces"), ({"size": object()}, "size: <object"),
+        ({"show": "x >"}, "show: "), ({"camera_keys": "x"}, "camera.keys"), ({"title": "a\0b"}, "title: .*C cannot read"),
+    ):
+        with pytest.raises(cgt.InvalidArgument, match=message):
+            figure.set(**options)
+        assert figure.settings == settings and figure.draw() is not before and np.array_equal(figure.pixels, before)
+    for data, more, message in (
+        (X, {"columns": {"v": [1, 2]}}, r"columns: v: shape \(2,\): must be \(3,\)"),
+        (X, {"columns": {"u": [1, 2, 3]}}, 'no column "v", but x, y, z, u'),
+        (X, {"columns": {"type": [1, 2, -1]}}, "type: -1 to 2: must fit uint32"),
+        (X, {"bonds": [[0, 3]]}, "bond 0 ends at 3"), ((X, [[0, 1, 3]]), {}, "triangle 0 has the corner 3"),
+        (X, {"cell": [[1, 2]]}, "cell: shape"), ([], {}, "positions: shape"), (X[:, :2], {}, "positions: shape"),
+        ({"x": 1}, {}, "positions"), (X, {"number": -1}, "number: -1"), (X, {"colour": 1}, "colour"),
+    ):
+        with pytest.raises((cgt.InvalidArgument, TypeError), match=message):
+            figure.show(data, **more)
+    with pytest.raises(cgt.InvalidArgument, match="nothing is shown"):
+        cgt.Figure().draw()
+    with pytest.raises(cgt.InvalidArgument, match="a run without frames"):
+        cgt.Figure().survey(iter(()))
+    figure.close()
+    with pytest.raises(cgt.InvalidArgument, match="figure: it is closed"):
+        figure.draw()
+
+
+def test_options_count_at_once_and_surveys_for_a_run():
+    figure = cgt.Figure(**SIZE, style="plain").show(X, radius=0.5)
+    first = figure.pixels
+    assert figure.pixels is first and same(figure.set(color="red").pixels, pixels(X, {"style": "plain", "color": "red"},
+                                                                                 radius=0.5))
+    run = [X * scale for scale in (1, 2, 5)]
+    surveyed = cgt.Figure(**SIZE).survey(run)
+    assert not np.array_equal(surveyed.show(X).camera.eye, cgt.Figure(**SIZE).show(X).camera.eye)
+    assert same(surveyed.show(X).pixels, cgt.Figure(**SIZE).survey(iter(run)).show(X).pixels)
+    with pytest.raises(cgt.InvalidArgument, match="nothing is shown"):
+        surveyed.set(color="red").draw()
+    far = cgt.Figure(**SIZE).show(X + 1e7)
+    assert same(far.pixels, pixels(X)) and abs(far.camera.target).max() < 10
+    wall = cgt.Figure(**SIZE).set_mesh((X + [0, 2, 0], [[0, 1, 2]])).show(X)
+    assert not np.array_equal(wall.pixels, pixels(X)) and wall.set_mesh(None).show(X).pixels.std() > 5
+    clear = cgt.Figure(**SIZE, transparent=True).show(X)
+    assert clear.pixels.shape == (40, 60, 4) and set(clear.pixels[..., 3].ravel()) >= {0, 255}
+    assert any("log_scale" in text for text in cgt.Figure(**SIZE, color="x", log_scale=True).show(X[:1] - 1).notices)
+
+
+def test_show_is_a_figure_in_a_line():
+    plain = cgt.show(X, 0.5, **SIZE)
+    assert isinstance(plain, cgt.Figure) and plain._repr_png_()[1:4] == b"PNG" and cgt.Figure()._repr_png_() is None
+    assert same(cgt.show(X, 0.5, "red", **SIZE).pixels, cgt.show(X, 0.5, ["red"] * 3, **SIZE).pixels,
+                cgt.show(X, 0.5, (1.0, 0, 0), **SIZE).pixels, cgt.show(X, [0.5] * 3, [[1, 0, 0]] * 3, **SIZE).pixels,
+                cgt.show(X, 0.5, np.full((3, 3), [255, 0, 0], "u1"), **SIZE).pixels)
+    values = np.array([3.0, 1, 2])
+    assert same(cgt.show(np.tile(X, (2, 1)), 0.5, np.tile(values, 2), **SIZE).pixels,
+                pixels(np.tile(X, (2, 1)), {"color": "v"}, radius=0.5, columns={"v": np.tile(values, 2)}))
+    assert same(cgt.show(X, 0.3, bonds=PAIRS, **SIZE).pixels, pixels(X, {"bonds": True}, radius=0.3, bonds=PAIRS))
+    assert same(cgt.show(X, 0.3, bonds=2.5, **SIZE).pixels, pixels(X, {"bonds": 2.5}, radius=0.3))
+    with pytest.raises(cgt.InvalidArgument, match="bonds: the file has no bonds"):
+        cgt.show(X, bonds=True, **SIZE)
+    with pytest.raises(cgt.InvalidArgument, match="colors: color says another thing"):
+        cgt.show(X, colors="red", color="x")
+
+
+def test_other_packages_have_the_same_data(tmp_path):
+    mesh = [[0, 1, 2]]
+    assert same(pixels((X, mesh)), pixels(types.SimpleNamespace(vertices=X, faces=mesh)))
+    water = np.array([[0.0, 0, 0.1], [0.76, 0, 0.69], [-0.76, 0, 0.69]])
+    options = {"bonds": True, "radius_scale": 0.4}
+    wanted = pixels(water, options, columns={"element": [8, 1, 1]}, bonds=[[0, 1], [0, 2]])
+    try:
+        import ase
+    except ImportError:
+        pass
+    else:
+        atoms = ase.Atoms("OHH", water)
+        assert same(pixels(atoms, options), wanted)
+        atoms.set_cell([0.9, 9, 9])
+        atoms.pbc = True
+        assert same(pixels(atoms, {"box": True}), pixels(water, {"box": True}, columns={"element": [8, 1, 1]},
+                                                         cell=[0.9, 9, 9]))
+    try:
+        import pandas
+    except ImportError:
+        pass
+    else:
+        table = pandas.DataFrame({"kind": ["a", "b", "a"], **dict(zip("xyz", water.T))})
+        kinds = {"show": 'kind == "a"'}
+        assert same(pixels(table, kinds), pixels(water, kinds, columns=table[["kind"]]), pixels(water, {"show": "x <= 0"}))
+        with pytest.raises(cgt.InvalidArgument, match="a table needs columns x, y and z"):
+            pixels(table[["x", "y"]])
+    path = tmp_path / "water.xyz"
+    path.write_text("3\n\n" + "".join(f"{s} {x} {y} {z}\n" for s, (x, y, z) in zip("OHH", water)))
+    assert same(pixels(cgt.read(path, all_bonds=True).read(), options), wanted)
+    residue = types.SimpleNamespace(name="HOH", resSeq=1, chain=types.SimpleNamespace(index=0))
+    kinds = [types.SimpleNamespace(element=types.SimpleNamespace(atomic_number=z), name=s, residue=residue, index=k)
+             for k, (z, s) in enumerate([(8, "O"), (1, "H1"), (1, "H2")])]
+    topology = types.SimpleNamespace(atoms=kinds, bonds=[(kinds[0], kinds[1]), (kinds[0], kinds[2])])
+    nanometres = types.SimpleNamespace(xyz=water[None] / 10, topology=topology, time=[1.0], unitcell_vectors=None)
+    close = pixels(nanometres, options).astype(int) - wanted
+    assert (abs(close) > 2).mean() < 0.02  # rounded another way
+    assert pixels(nanometres, {"show": "resname == HOH and name == O"}).std() > 5
+
+
+def test_universes_of_mdanalysis():
+    MDAnalysis = pytest.importorskip("MDAnalysis")
+    universe = MDAnalysis.Universe.empty(3, trajectory=True)
+    universe.atoms.positions = X
+    assert same(pixels(universe), pixels(X.astype("f4"), columns={"id": [1, 2, 3]}))
+    with pytest.raises(cgt.InvalidArgument, match="bonds: the file has no bonds"):
+        pixels(universe, {"bonds": True})
+    universe.add_TopologyAttr("bonds", PAIRS)
+    universe.add_TopologyAttr("elements", ["O", "H", "H"])
+    universe.add_TopologyAttr("names", ["OW", "HW1", "HW2"])
+    universe.dimensions = [3, 9, 9, 90, 90, 90]
+    assert same(pixels(universe, {"bonds": True}), pixels(X, {"bonds": True}, columns={"element": [8, 1, 1]},
+                                                          bonds=PAIRS, cell=[3, 9, 9]))
+    part = universe.atoms[[2, 1]]
+    assert same(pixels(part, {"bonds": True}), pixels(X[[2, 1]], {"bonds": True}, columns={"element": [1, 1]},
+                                                      bonds=[[0, 1]], cell=[3, 9, 9]))
+    assert same(*(pixels(universe, {"show": rule}) for rule in ("name == OW", "element == O", "id == 1")))
+
+
+def test_movies(tmp_path, monkeypatch):
+    run = [X + [0, 0, k] for k in range(4)]
+    figure = cgt.Figure(size=(61, 40))
+    for path, data, message in (("a.avi", run, "path: .avi: movies are .gif"), ("a.mp4", X, "run: ndarray"),
+                                ("a.mp4", [], "run: list")):
+        with pytest.raises(cgt.InvalidArgument, match=message):
+            figure.movie(tmp_path / path, data)
+    if shutil.which("ffmpeg"):
+        for name in ("a.mp4", "a.gif"):
+            figure.movie(tmp_path / name, (x for x in run), fps=10, progress=False)
+            command = ["ffmpeg", "-v", "error", "-i", tmp_path / name, "-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
+            raw = subprocess.run(command, capture_output=True, check=True).stdout
+            width = 61 if name == "a.gif" else 62
+            last = np.frombuffer(raw, "u1").reshape(4, 40, width, 3)[-1, :, :61]
+            assert abs(last.astype(int) - figure.pixels).mean() < 6
+        with pytest.raises(cgt.InvalidArgument, match="positions: shape"):
+            figure.movie(tmp_path / "b.mp4", [*run, X[:, :2]], survey=False, progress=False)
+        assert sorted(os.listdir(tmp_path)) == ["a.gif", "a.mp4"]
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(cgt.InvalidArgument, match="movies need the program ffmpeg"):
+        figure.movie(tmp_path / "a.mp4", run)
+
+
+def test_show_opens_the_window(tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(cgt.InvalidArgument, match="no cgt-view"):
+        cgt.show(X, window=True, **SIZE)
+    view = tmp_path / "cgt-view"
+    view.write_text('#!/bin/sh\nprintf "%s\\n" "$@" >"$0.args"\n/bin/cp "$2" "$0.settings"\n/bin/cp "$3" "$0.file"\n')
+    view.chmod(0o755)
+    cgt.show(X, [0.5, 0.5, 1], window=False, **SIZE)
+    assert not (tmp_path / "cgt-view.args").exists()
+    cgt.show(X, [0.5, 0.5, 1], "q", columns={"type": [2, 1, 2], "q": [1, 2.5, 3]}, window=True, **SIZE)
+    _show._Window._open[-1].process.wait()
+    assert (tmp_path / "cgt-view.settings").read_text() == "size = 60x40\ncolor = q\n"
+    frame = cgt.read(tmp_path / "cgt-view.file", format="xyz", columns="q").read()
+    assert np.array_equal(frame.positions, X) and frame.radii.tolist() == [0.5, 0.5, 1]
+    assert frame.types.tolist() == [2, 1, 2] and frame["q"].tolist() == [1, 2.5, 3]
+    monkeypatch.setattr(_show, "_can_open", lambda: True)
+    (tmp_path / "cgt-view.args").unlink()
+    cgt.show(X, **SIZE)  # at a prompt
+    _show._Window._open[-1].process.wait()
+    assert (tmp_path / "cgt-view.args").exists()
+    folders = [window.folder for window in _show._Window._open]
+    _show._Window._close_all()
+    assert not any(os.path.exists(folder) for folder in folders)
