@@ -27,7 +27,6 @@ from ._native import (
     Error, InUse, InvalidArgument, NotCommitted, OutOfMemory, Stopped, ThreadsRefused, TooLarge, Unsupported,
 )
 from ._frames import camera_rays
-from ._bonds import half_bonds
 from .context import Context, variants, version
 from .geometry import Camera, Capsules, Light, Spheres, Triangles
 from .results import INVALID_ID, AllHits, Fields, Frame, HitRows, Hits, SingleHit
@@ -54,7 +53,7 @@ __all__ = [
     "AllHits", "Camera", "Capsules", "Context", "Error", "Fields", "Figure", "Frame", "HitRows", "Hits", "INVALID_ID",
     "InUse", "InvalidArgument", "Light", "Look", "Material", "NotCommitted", "OutOfMemory", "Picture", "ReadError", "Scene",
     "SingleHit", "Spheres", "Stopped", "ThreadsRefused", "TooLarge", "Trajectory", "TrajectoryFrame", "Triangles",
-    "Unsupported", "camera_rays", "colors", "figure", "find_bodies", "half_bonds", "read", "show", "sort_series",
+    "Unsupported", "camera_rays", "colors", "figure", "find_bodies", "read", "show", "sort_series",
     "variants", "version",
 ]
 

@@ -31,6 +31,7 @@ FUNCTIONS_LEFT_OUT = {
     "cgt_picture_set_options": "another Picture",
     **{"cgt_camera_fit_" + name: "Camera.fit" for name in ("create", "release", "add", "add_box", "apply")},
     "cgt_srgb_from_linear": "cgt_srgb_encode, for colours that are given",
+    **{f"cgt_get_{kind}_color": "Figure has the colours of types and elements" for kind in ("type", "element")},
     # cgt-mpi
     "cgt_mpi_draw_rows": "rows come to rank 0", "cgt_mpi_get_scene": "a scene of one process has all calls",
     # cgt-trajectory
@@ -203,7 +204,7 @@ def test_examples_have_the_types_that_they_use():
 def test_a_type_checker_knows_names_and_types(tmp_path):
     program = tmp_path / "program.py"
     program.write_text("import cgt\ncgt.shwo(1)\ncgt.Camera(fov='wide')\nreveal_type(cgt.show([[0, 0, 0]]))\n"
-                       "reveal_type(cgt.read('a')[0].step)\ncgt.trimesh, cgt.colors.by_type, cgt.research\n")
+                       "reveal_type(cgt.read('a')[0].step)\ncgt.trimesh, cgt.colors.palette, cgt.research\n")
     lines = mypy(program).stdout.splitlines()
     assert len([line for line in lines if "error:" in line]) == 2, lines
     for words in (':2: error: Module has no attribute "shwo"', ":3: error: Argument", 'type is "cgt.figure.Figure"',
@@ -223,5 +224,5 @@ def test_all_names_are_found():
 
 
 def test_help_begins_with_what_a_call_does():
-    for call in (cgt.show, cgt.Figure.movie, cgt.Scene.trace_rays, cgt.Scene.trace_hit_rows, cgt.Picture.__init__, cgt.half_bonds):
+    for call in (cgt.show, cgt.Figure.movie, cgt.Scene.trace_rays, cgt.Scene.trace_hit_rows, cgt.Picture.__init__):
         assert len(str(inspect.signature(call))) < 1000 and "_typing" not in str(inspect.signature(call))

@@ -34,7 +34,8 @@ def same(*pictures):
 def test_values_become_texts():
     camera = cgt.Camera((0, -9, 1), up=(0, 0, 1))
     figure = cgt.Figure(size=(60, 40), antialias=np.int64(2), camera=camera, title="A = b", range=[0.5, np.float32(2)],
-                        show=["x > 0", "y < 2"], sun=[(1, 2, 3), (3, 2, 1, 0.5)], bonds=True, lamp=(1, 2, 3.5), type_color={"O": "Tomato", 2: "#48f"}, background=(1.0, 0, 0), color="ff8000",
+                        show=["x > 0", "y < 2"], sun=[(1, 2, 3), (3, 2, 1, 0.5)], bonds=True,
+                        lamp=(1, 2, 3.5), type_color={"O": "Tomato", 2: "#48f"}, background=(1.0, 0, 0), color="ff8000",
                         shadows=False, log_scale=False, floor="forestgreen", fov=None)
     assert figure.settings == """size = 60x40
 antialias = 2
@@ -74,7 +75,8 @@ def test_what_is_refused_changes_nothing():
         ({"fov": "wide"}, "fov: "), ({"fov": {1: 2}}, "fov: it takes no dictionary"),
         ({"style": "paper", "antialias": 3}, "antialias: 3 is not 1, 2 or 4"),
         ({"material": {2: "glass"}}, "material is for bounces"), ({"size": object()}, "size: <object"),
-        ({"show": "x >"}, "show: "), ({"camera_keys": "x"}, "camera.keys"), ({"title": "a\0b"}, "title: .*C cannot read"),
+        ({"show": "x >"}, "show: "), ({"camera_keys": "x"}, "camera.keys"),
+        ({"title": "a\0b"}, "title: .*C cannot read"),
     ):
         with pytest.raises(cgt.InvalidArgument, match=message):
             figure.set(**options)
@@ -159,7 +161,8 @@ def test_other_packages_have_the_same_data(tmp_path):
     else:
         table = pandas.DataFrame({"kind": ["a", "b", "a"], **dict(zip("xyz", water.T))})
         kinds = {"show": 'kind == "a"'}
-        assert same(pixels(table, kinds), pixels(water, kinds, columns=table[["kind"]]), pixels(water, {"show": "x <= 0"}))
+        by_words = pixels(water, kinds, columns=table[["kind"]])
+        assert same(pixels(table, kinds), by_words, pixels(water, {"show": "x <= 0"}))
         with pytest.raises(cgt.InvalidArgument, match="a table needs columns x, y and z"):
             pixels(table[["x", "y"]])
     path = tmp_path / "water.xyz"
