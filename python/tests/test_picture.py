@@ -1,10 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Pictures; left out where libcgt was installed without them."""
-import os
 import struct
-import sys
-import types
 import zlib
 
 import numpy as np
