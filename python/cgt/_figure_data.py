@@ -136,8 +136,8 @@ def take(given, bonded: bool = False, **more) -> FigureData:
         names = [name for name in given.columns if name not in ("x", "y", "z")]
         if len(names) + 3 != len(given.columns):
             raise InvalidArgument("data: a table needs columns x, y and z")
-        found = {"positions": given[["x", "y", "z"]].to_numpy(float),
-                 "columns": {name: given[name].to_numpy() for name in names}}
+        found = {"positions": np.column_stack([np.asarray(given[name], float) for name in "xyz"]),
+                 "columns": {name: np.asarray(given[name]) for name in names}}
     else:
         found = {"positions": given}
     more = {name: value for name, value in more.items() if value is not None}

@@ -71,8 +71,9 @@ def show(data, radii=None, colors: Any = None, *, bonds: Any = False, window: Op
             own = {"rgb": light_of("colors", colors, (len(a), 3))}
         more["columns"] = {**dict(more.get("columns", {})), **own}
     figure = Figure(**options, bonds=bonds).show(data, radius=radii, **more)
-    if window or (window is None and figure._shown.triangles is None and _can_open()):
-        _Window(figure)
+    shown = figure._shown
+    if shown is not None and (window or (window is None and shown.triangles is None and _can_open())):
+        _Window(figure, shown)
     return figure
 
 
@@ -90,16 +91,16 @@ class _Window:
 
     _open: List["_Window"] = []
 
-    def __init__(self, figure: Figure):
+    def __init__(self, figure: Figure, shown: FigureData):
         program = shutil.which("cgt-view")
         if program is None:
             raise InvalidArgument("window: no cgt-view: install libcgt's programs where PATH finds them")
-        if figure._shown.triangles is not None:
+        if shown.triangles is not None:
             raise InvalidArgument("window: a mesh: cgt-view shows its file")
         self.folder = tempfile.mkdtemp(prefix="cgt_show_")
         path, settings = (os.path.join(self.folder, name) for name in ("show.xyz", "settings"))
         with open(path, "w", encoding="utf-8") as file:
-            _write_xyz(file, figure._shown)
+            _write_xyz(file, shown)
         with open(settings, "w", encoding="utf-8") as file:
             file.write(figure.settings)
         self.process = subprocess.Popen([program, "--settings", settings, path], stdin=subprocess.DEVNULL)

@@ -59,6 +59,11 @@ def code_of(text: str) -> Optional[str]:
     return _NAMES.get(text.lower().replace(" ", ""))
 
 
+def code_of_light(linear: np.ndarray) -> str:
+    """A linear colour as "rrggbb"."""
+    return "".join(f"{lib.cgt_srgb_encode(x):02x}" for x in linear.tolist())
+
+
 def _of_text(name: str, text: str) -> list:
     """Bytes of a colour's name or code."""
     code = code_of(text)

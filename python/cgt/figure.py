@@ -20,7 +20,7 @@ from ._arrays import U1, Hold
 from ._figure_data import FigureData, frames_of, is_run, take
 from ._gate import Gate
 from ._native import Error, InvalidArgument, Plain, exception_of, instance, load_part, real, struct_values, whole
-from .colors import code_of, light_of
+from .colors import code_of, code_of_light, light_of
 from .context import Context
 from .geometry import Camera
 from .picture import encode_png
@@ -30,7 +30,8 @@ ffi, lib = load_part("figure")
 
 
 def _list_options() -> Dict[str, SimpleNamespace]:
-    found, option = {}, ffi.new("cgt_figure_option *")
+    found: Dict[str, SimpleNamespace] = {}
+    option = ffi.new("cgt_figure_option *")
     kinds = {getattr(lib, name): name[11:].lower() for name in dir(lib) if name.startswith("CGT_FIGURE_")}
     while lib.cgt_figure_get_option(len(found), option):
         row = SimpleNamespace(**struct_values(option[0], ffi))
@@ -91,13 +92,16 @@ def _text_of(keyword: str, row, value) -> str:
     if isinstance(value, (list, tuple, np.ndarray)):
         parts = list(value)
         if is_color and len(parts) == 3:
-            return "".join(f"{lib.cgt_srgb_encode(x):02x}" for x in light_of(keyword, value).tolist())
+            return code_of_light(light_of(keyword, value))
         between = "x" if re.fullmatch(r"[A-Za-z]+x[A-Za-z]+", row.value or "") else ","
         return between.join(code_of(p) or p if isinstance(p, str) else _number_text(keyword, p) for p in parts)
     raise InvalidArgument(f"{keyword}: {value!r}: must be text, a number, or several")
 
 
-def _settings_of(keyword: str, value) -> List[Tuple[str, Optional[List[Optional[str]]]]]:
+_Texts = Optional[List[Optional[str]]]
+
+
+def _settings_of(keyword: str, value) -> List[Tuple[str, _Texts]]:
     """Names of options and the texts of their values; None for no value, and in place of the list: unset."""
     name = keyword.replace("_", "-")
     row = _OPTIONS.get(name)
@@ -120,7 +124,7 @@ def _settings_of(keyword: str, value) -> List[Tuple[str, Optional[List[Optional[
         return [(name, [f"{key}={_text_of(keyword, colored, v)}" for key, v in value.items()])]
     many = row.repeats and isinstance(value, (list, tuple)) and not (
         value and isinstance(value[0], (int, float, np.integer, np.floating)))
-    found = [(name, [_text_of(keyword, row, v) for v in (value if many else [value])])]
+    found: List[Tuple[str, _Texts]] = [(name, [_text_of(keyword, row, v) for v in (value if many else [value])])]
     if isinstance(value, Camera) and value.projection == "orthographic":
         found.append(("ortho", [None]))
     return found
@@ -173,6 +177,7 @@ class Figure(Plain):
     __slots__ = ("_handle", "_context", "_context_handle", "_gate", "_texts", "_notices", "_origin", "_looked",
                  "_shown", "_again", "_pixels", "_counts")
     _unmade = {"_made": False, "_handle": None, "_gate": Gate("figure")}
+    _handle: Any
 
     def __init__(self, context: Optional[Context] = None, **options: Any):
         if self._handle is not None:
@@ -208,7 +213,7 @@ class Figure(Plain):
         return {**self._given, **self.options}
 
     def _told(self) -> dict:
-        return self.options
+        return self.options if self._made else {}
 
     def _check(self, result: int, handle=None) -> None:
         handle = handle or self._handle
@@ -288,7 +293,7 @@ class Figure(Plain):
     @property
     def size(self) -> Tuple[int, int]:
         """Width and height in pixels."""
-        width, height = self._texts.get("size", ["1280x720"])[0].split("x")
+        width, height = str(self._texts.get("size", ["1280x720"])[0]).split("x")
         return int(width), int(height)
 
     @property
@@ -308,7 +313,11 @@ class Figure(Plain):
         if self._origin is None:
             self._origin = list(data.origin) if data.origin else [0.0, 0.0, 0.0]
         c = data.fill(ffi, number, self._origin, keep)
-        self._check(call(self._open, c))
+        try:
+            self._check(call(self._open, c))
+        except Error:
+            self._forget()
+            raise
         del keep
 
     def _look(self, data: FigureData, who: str = "survey") -> None:
