@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "color/given_colors.h"
 #include "figure_state.h"
 #include "options/figure_values.h"
 #include "options/option_row.h"
@@ -286,7 +285,6 @@ static int settle(cgt_figure *figure)
     const uint32_t trails = figure->options.particles.trails;
     end_survey(figure);
     figure->is_mesh = figure->survey.kind == CGT_TRAJECTORY_TRIANGLES;
-    figure->has_rgb = figure->options.by == COLORING_AUTO && figure->data.rgb;
     if (cgt_figure_move_cameras(figure) || cgt_figure_choose_colors(figure) ||
         (figure->mesh.frame.triangles && cgt_figure_scene_mesh(figure, &figure->mesh.frame)) ||
         cgt_figure_choose_camera(figure) || cgt_figure_settle(figure))
@@ -314,20 +312,6 @@ static int check_frame(cgt_figure *figure)
     return 0;
 }
 
-static int set_colors(cgt_figure *figure, const cgt_figure_data *data)
-{
-    frame_sequence *const s = &figure->sequence;
-    if (cgt_coloring_apply(&figure->coloring, &s->frame, s->speed))
-        return cgt_figure_fail(figure, "out of memory for the colours");
-    if (!figure->has_rgb)
-        return 0;
-    if (data->frame || !figure->data.rgb)
-        return cgt_figure_fail(figure, "frame %" PRIu64 " has no column rgb, which others have", s->frame.number);
-    cgt_coloring_give(&figure->coloring, figure->data.rgb, s->frame.count);
-    memcpy(figure->parts.palette, figure->coloring.palette, sizeof figure->coloring.palette);
-    return 0;
-}
-
 static int show(cgt_figure *figure, const cgt_figure_data *data)
 {
     frame_sequence *const s = &figure->sequence;
@@ -335,8 +319,8 @@ static int show(cgt_figure *figure, const cgt_figure_data *data)
         return -1;
     if (place_frame(figure, data) || check_frame(figure) || take_frame(figure))
         return -1;
-    if (set_colors(figure, data))
-        return -1;
+    if (cgt_coloring_apply(&figure->coloring, &s->frame, s->speed))
+        return cgt_figure_fail(figure, "out of memory for the colours");
     if (cgt_figure_scene_prepare(figure, &s->frame, figure->coloring.index, &figure->drawn, figure->message,
                                  sizeof figure->message))
         return -1;

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "color/given_colors.h"
 #include "survey/origin.h"
 #include "figure_state.h"
 #include "options/numbers.h"
@@ -179,7 +180,8 @@ void cgt_figure_name_camera(const cgt_figure *figure, const cgt_camera *camera, 
 int cgt_figure_choose_colors(cgt_figure *figure)
 {
     const figure_options *o = &figure->options;
-    const coloring_by by = figure->has_rgb          ? COLORING_PLAIN
+    const int has_rgb = o->by == COLORING_AUTO && cgt_coloring_has_given(&figure->sequence.frame);
+    const coloring_by by = has_rgb                  ? COLORING_RGB
                            : o->by == COLORING_AUTO ? cgt_coloring_choose(&figure->survey)
                                                     : o->by;
     const int axis = o->up[0] != 0.0f ? 0 : o->up[1] != 0.0f ? 1 : 2;

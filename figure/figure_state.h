@@ -71,7 +71,6 @@ struct cgt_figure {
 
     /* Of <cgt/figure.h> alone. */
     int is_settled, is_surveying, has_bonds_told;
-    int has_rgb;       /* the colours are those of the column rgb */
     survey_team team;  /* while is_surveying */
     uint64_t next;     /* number of the frame that follows the last one */
     figure_data data;  /* the frame at hand, of the caller's columns */

@@ -8,13 +8,13 @@
 #include <cgt/figure.h>
 #include <cgt/trajectory.h>
 
-enum { FIGURE_DATA_BLOCKS = 4 * CGT_TRAJECTORY_MOST_COLUMNS + 8 }; /* four for velocities, at most three for others */
+enum { FIGURE_DATA_BLOCKS = 4 * CGT_TRAJECTORY_MOST_COLUMNS + 8 }; /* four for vectors, at most three for others */
 
 /* All zero at first. */
 typedef struct figure_data {
     cgt_trajectory_frame frame; /* its arrays are the blocks, and the caller's bonds */
     cgt_trajectory_column *column;
-    const float *radius, *rgb; /* the columns of these names; NULL: none */
+    const float *radius; /* the column of that name; NULL: none */
     void *block[FIGURE_DATA_BLOCKS];
     uint32_t blocks;
 } figure_data;
