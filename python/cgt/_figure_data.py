@@ -116,20 +116,18 @@ def _column(name: str, values, count: int):
 # ---- one frame ----
 
 
-def take(given, bonded: bool = False, **more) -> FigureData:
-    """The frame that an object is; `more` replaces what it says. bonded: bonds will be drawn, guess what ASE lacks."""
+def take(given, **more) -> FigureData:
+    """The frame that an object is; `more` replaces what it says."""
     if isinstance(given, TrajectoryFrame):
         found = _of_frame(given)
     elif hasattr(given, "get_atomic_numbers"):
-        found = _of_ase(given, bonded and more.get("bonds") is None)
+        found = _of_ase(given)
     elif hasattr(given, "atoms") and hasattr(given.atoms, "positions"):
         found = _of_mdanalysis(given.atoms)
     elif hasattr(given, "xyz") and hasattr(given, "topology"):
         found = _of_mdtraj(given)
     elif hasattr(given, "vertices") and hasattr(given, "faces"):
         found = {"positions": given.vertices, "triangles": given.faces}
-        if "vertex_normals" in getattr(given, "_cache", ()):  # of a mesh that is smooth on purpose
-            found["columns"] = {"normal": given.vertex_normals}
     elif isinstance(given, tuple) and len(given) == 2 and all(np.ndim(part) == 2 for part in given):
         found = {"positions": given[0], "triangles": given[1]}
     elif hasattr(given, "columns") and hasattr(given, "to_numpy"):
@@ -166,7 +164,7 @@ def _of_frame(f: TrajectoryFrame) -> dict:
     return found
 
 
-def _of_ase(atoms, guesses: bool) -> dict:
+def _of_ase(atoms) -> dict:
     columns = {"element": atoms.get_atomic_numbers()}
     for name, values in getattr(atoms, "arrays", {}).items():
         if name not in ("numbers", "positions", "momenta") and np.ndim(values) == 1:
@@ -180,11 +178,6 @@ def _of_ase(atoms, guesses: bool) -> dict:
     edges = getattr(getattr(atoms, "cell", None), "array", None)
     if edges is not None and edges.any():  # sheets and chains have edges of no length
         found.update(cell=edges, pbc=atoms.pbc & edges.any(axis=1))
-    if guesses:
-        from ase.neighborlist import natural_cutoffs, neighbor_list
-
-        first, second = neighbor_list("ij", atoms, natural_cutoffs(atoms, mult=1.15))
-        found["bonds"] = np.column_stack([first, second])[first < second]
     return found
 
 

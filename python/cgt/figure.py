@@ -303,10 +303,6 @@ class Figure(Plain):
 
     # ---- frames ----
 
-    def _data(self, given, more) -> FigureData:
-        bonds = self._texts.get("bonds")
-        return take(given, bonds is not None and bonds[0] is None, **more)
-
     def _give(self, call, data: FigureData, number: int) -> None:
         """Within the gate: a frame for C."""
         keep: list = []
@@ -352,7 +348,7 @@ class Figure(Plain):
         if is_run(data):
             self._survey_run(data, more)
         else:
-            self._look(self._data(data, more))
+            self._look(take(data, **more))
         return self
 
     def _survey_run(self, run, more) -> None:
@@ -361,7 +357,7 @@ class Figure(Plain):
             self._forget()
         for _ in range(2):
             for frame in self._frames(run):
-                self._look(self._data(frame, more))
+                self._look(take(frame, **more))
             if not self._counts[0]:
                 raise InvalidArgument("data: a run without frames")
             if isinstance(run, Iterator) or not self._move_origin():
@@ -382,7 +378,7 @@ class Figure(Plain):
         data
             What is drawn; see `Figure`, as for the rest. Arrays are copied.
         """
-        self._show(self._data(data, more))
+        self._show(take(data, **more))
         return self
 
     def _show(self, data: FigureData) -> None:
@@ -398,7 +394,7 @@ class Figure(Plain):
 
     def set_mesh(self, mesh, **more) -> "Figure":
         """Sets a mesh that stands still among the particles, such as walls; None: none. Returns the figure."""
-        data = None if mesh is None else self._data(mesh, more)
+        data = None if mesh is None else take(mesh, **more)
         with self._gate.alone:
             keep: list = []
             c = ffi.NULL if data is None else data.fill(ffi, 0, self._origin or data.origin or [0.0] * 3, keep)
@@ -484,7 +480,7 @@ class Figure(Plain):
                 run = list(run) if isinstance(run, Iterator) else run
                 self._survey_run(run, more)
             for frame in _with_progress(self._frames(run), run, progress):
-                self._show(self._data(frame, more))
+                self._show(take(frame, **more))
                 encoder.write(self.draw())
         return self
 

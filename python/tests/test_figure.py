@@ -141,15 +141,15 @@ def test_other_packages_have_the_same_data(tmp_path):
     mesh = [[0, 1, 2]]
     assert same(pixels((X, mesh)), pixels(types.SimpleNamespace(vertices=X, faces=mesh)))
     water = np.array([[0.0, 0, 0.1], [0.76, 0, 0.69], [-0.76, 0, 0.69]])
-    options = {"bonds": True, "radius_scale": 0.4}
-    wanted = pixels(water, options, columns={"element": [8, 1, 1]}, bonds=[[0, 1], [0, 2]])
+    options, pairs = {"bonds": True, "radius_scale": 0.4}, [[0, 1], [0, 2]]
+    wanted = pixels(water, options, columns={"element": [8, 1, 1]}, bonds=pairs)
     try:
         import ase
     except ImportError:
         pass
     else:
         atoms = ase.Atoms("OHH", water)
-        assert same(pixels(atoms, options), wanted)
+        assert same(pixels(atoms, options, bonds=pairs), wanted)
         atoms.set_cell([0.9, 9, 9])
         atoms.pbc = True
         assert same(pixels(atoms, {"box": True}), pixels(water, {"box": True}, columns={"element": [8, 1, 1]},
