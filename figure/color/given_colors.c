@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Colours that the data have; see given_colors.h. They are told apart by the codes of 8 bits that screens have; low bits
- * are dropped until there are as few as the palette holds, which eight to the power of three always are. */
+ * Colours that the data have; see given_colors.h. They are told apart by the codes of 8 bits that screens have; low
+ * bits are dropped until there are as few as the palette holds, which eight to the power of three always are. */
 #include "color/given_colors.h"
 
 #include <string.h>

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Colours that the data have: of each particle three columns, linear. Their names have blanks, so that no column of a file
- * is one. */
+ * Colours that the data have: of each particle three columns, linear. Their names have blanks, so that no column of a
+ * file is one. */
 #ifndef GIVEN_COLORS_H
 #define GIVEN_COLORS_H
 

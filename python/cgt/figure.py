@@ -421,6 +421,8 @@ class Figure(Plain):
         """Draws the shown frame: (height, width, 3) uint8, a new array; with the option transparent 4 numbers."""
         if self._again is not None:
             self._show(self._again)
+        if self._open and self._shown is None:
+            raise InvalidArgument("figure: nothing is shown: show() a frame, also where options were set after a survey")
         width, height = self.size
         with self._gate.alone:
             pixels, keep = np.zeros((height, width, 3), U1), []
