@@ -9,7 +9,7 @@ from typing import Any, Dict, Iterator, Optional
 import numpy as np
 
 from . import _arrays
-from ._arrays import F4, F8, U4, array_of, check_shape, numbers
+from ._arrays import F4, F8, U4, Hold, array_of, check_shape, numbers
 from ._native import InvalidArgument, real, whole
 from .trajectory import Trajectory, TrajectoryFrame, TrajectorySlice
 
@@ -18,7 +18,7 @@ _OWN = {"x", "y", "z", "vx", "vy", "vz", "radius", *_WHOLE}  # columns of files 
 
 
 class FigureData:
-    """A frame as <cgt/figure.h> takes it: arrays of its own type, which C copies."""
+    """A frame as <cgt/figure.h> takes it: arrays of its types, which C copies."""
 
     def __init__(self, positions, *, radius=None, columns: Optional[Mapping] = None, bonds=None, cell=None, pbc=True,
                  triangles=None, corner=(0.0, 0.0, 0.0), unwrapped=(0, 0, 0), angstrom: float = 1.0,
@@ -77,7 +77,7 @@ class FigureData:
             c.triangles.count = len(self.triangles)
             self._set(c.triangles.corners, self.triangles, keep)
         if self.bonds is not None:
-            keep.append(np.ascontiguousarray(self.bonds))
+            keep.append(np.array(self.bonds, order="C"))  # C checks them, and reads them again
             c.bonds.count, c.bonds.ends = len(self.bonds), _arrays.pointer(keep[-1])
         if self.edges is not None:
             box = c.box
@@ -87,8 +87,8 @@ class FigureData:
 
     @staticmethod
     def _set(struct, values, keep) -> None:
-        keep.append(np.ascontiguousarray(values))
-        _arrays.set_array(struct, keep[-1], 0)
+        keep.append(Hold(np.ascontiguousarray(values)))
+        _arrays.set_array(struct, keep[-1].view, 0)
 
 
 def _floats(name: str, values, shape) -> np.ndarray:

@@ -244,7 +244,8 @@ class Figure(Plain):
     def set(self, **options: Any) -> "Figure":
         """Sets options, each in place of what was set of it, and returns the figure. An error changes nothing.
 
-        After that a survey has to be made again; without one, what is shown is drawn by the new options.
+        After that a survey has to be made again; without one, what is shown is drawn by the new options, of its arrays
+        as they are then.
         """
         texts = dict(self._texts)
         for keyword, value in options.items():
