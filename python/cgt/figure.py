@@ -32,7 +32,7 @@ ffi, lib = load_part("figure")
 def _list_options() -> Dict[str, SimpleNamespace]:
     found: Dict[str, SimpleNamespace] = {}
     option = ffi.new("cgt_figure_option *")
-    kinds = {getattr(lib, name): name[11:].lower() for name in dir(lib) if name.startswith("CGT_FIGURE_")}
+    kinds = {value: name[11:].lower() for value, name in ffi.typeof("cgt_figure_kind").elements.items()}
     while lib.cgt_figure_get_option(len(found), option):
         row = SimpleNamespace(**struct_values(option[0], ffi))
         row.kind, row.words = kinds[row.kind], tuple((row.words or "").split())
