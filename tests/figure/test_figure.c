@@ -392,7 +392,7 @@ TEST(colours_are_those_of_a_column)
     draw(figure, &data, rgb);
     for (int i = 0; i < BYTES; i += 3)
         assert_true(rgb[i + 2] < 3 || (rgb[i + 2] == 0x37 && rgb[i] == 0x2a)); /* no blue but the background's */
-    data.points.columns = columns;
+    data.points.column_count = 0;
     draw(figure, &data, rgb); /* a frame that lacks them is grey */
     for (int i = 0; i < BYTES; i += 3)
         assert_true(rgb[i + 2] > 3);
