@@ -7,6 +7,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "data/element_symbols.h"
@@ -211,6 +212,12 @@ void cgt_figure_close_picture(cgt_figure *figure)
 {
     cgt_picture_release(figure->drawing);
     figure->drawing = NULL;
+    for (int i = 0; i < CGT_FIGURE_QUALITIES; i++) {
+        cgt_picture_release(figure->quick[i]);
+        figure->quick[i] = NULL;
+    }
+    free(figure->small);
+    figure->small = NULL;
     cgt_text_close(figure->overlay.font);
     memset(&figure->overlay, 0, sizeof figure->overlay);
 }

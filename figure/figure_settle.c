@@ -48,18 +48,21 @@ int cgt_figure_fail_picture(cgt_figure *figure, cgt_result result)
 
 /* ---- What must be known ------------------------------------------------------------------------------------- */
 
-/* Whether types or elements are to be named, which are those of all frames. */
-static int has_legend(const figure_options *o)
+int cgt_figure_wants_kinds(const figure_options *o)
 {
     return (o->picture.legend || o->picture.bar) &&
            (o->by == COLORING_AUTO || o->by == COLORING_TYPE || o->by == COLORING_ELEMENT);
+}
+
+unwrap_mode cgt_figure_unwraps(const figure_options *o)
+{
+    return o->whole ? UNWRAP_WHOLE : o->unwrap ? UNWRAP_IMAGES : UNWRAP_NOT;
 }
 
 int cgt_figure_open(cgt_figure *figure)
 {
     const figure_options *o = &figure->options;
     frame_sequence *const sequence = &figure->sequence;
-    const unwrap_mode mode = o->whole ? UNWRAP_WHOLE : o->unwrap ? UNWRAP_IMAGES : UNWRAP_NOT;
     if (o->by == COLORING_VALUE &&
         !(figure->formula = cgt_expression_parse(o->formula, figure->message, sizeof figure->message)))
         return -1;
@@ -69,8 +72,8 @@ int cgt_figure_open(cgt_figure *figure)
         if (!sequence->tracker)
             return cgt_figure_fail(figure, "out of memory");
     }
-    sequence->wants_kinds = has_legend(o);
-    if (cgt_frame_sequence_unwrap(sequence, mode, figure->message, sizeof figure->message) ||
+    sequence->wants_kinds = cgt_figure_wants_kinds(o);
+    if (cgt_frame_sequence_unwrap(sequence, cgt_figure_unwraps(o), figure->message, sizeof figure->message) ||
         cgt_frame_sequence_bind(sequence, figure->formula, figure->message, sizeof figure->message))
         return -1;
     return cgt_figure_scene_open(figure);
@@ -83,10 +86,10 @@ uint64_t cgt_figure_needs_frames(const cgt_figure *figure, uint64_t most)
         o->by != COLORING_TYPE && o->by != COLORING_PLAIN && o->by != COLORING_AUTO && o->by != COLORING_ELEMENT;
     if (!o->has_camera || (measured && !o->has_range) || (o->floor.is_set && !o->floor.has_place))
         return most;
-    if (has_legend(o))
+    if (cgt_figure_wants_kinds(o))
         return most;
-    /* the up axis depends on the kind, and meshes of glass are as dark as they are large */
-    return o->by == COLORING_AUTO || o->by == COLORING_HEIGHT || o->bounce.count;
+    /* the up axis and ambient rays depend on the kind, and meshes of glass are as dark as they are large */
+    return o->by == COLORING_AUTO || o->by == COLORING_HEIGHT || o->bounce.count || o->picture.ambient < 0;
 }
 
 int cgt_figure_is_decided(const cgt_figure *figure)
@@ -210,6 +213,25 @@ int cgt_figure_choose_colors(cgt_figure *figure)
     if (o->logarithmic && !figure->coloring.logarithmic)
         cgt_notices_add(&figure->notices, "--log-scale: there is nothing above 0 to scale: the scale is linear");
     return 0;
+}
+
+/* Nothing is told twice. */
+int cgt_figure_keep_colors(cgt_figure *figure, const figure_found *was)
+{
+    figure_options *const o = &figure->options;
+    const coloring_by by = o->by;
+    const int has_range = o->has_range;
+    const double range[2] = {o->range_min, o->range_max};
+    o->by = was->by;
+    o->has_range = 1;
+    o->range_min = was->min;
+    o->range_max = was->max;
+    const int failed = cgt_figure_choose_colors(figure);
+    o->by = by;
+    o->has_range = has_range;
+    o->range_min = range[0];
+    o->range_max = range[1];
+    return failed;
 }
 
 /* ---- Bonds -------------------------------------------------------------------------------------------------- */
@@ -337,10 +359,19 @@ void cgt_figure_choose_light(cgt_figure *figure)
 void cgt_figure_camera_at(const cgt_figure *figure, uint64_t number, cgt_camera *camera)
 {
     const double share = figure->survey.has_total ? (double)number / (double)figure->survey.total : 0.0;
-    if (figure->options.keys.count)
+    if (figure->has_hand)
+        *camera = figure->hand;
+    else if (figure->options.keys.count)
         cgt_camera_keys_at(&figure->options.keys, number, camera);
     else
         cgt_camera_path_at(&figure->path, share, camera);
+}
+
+void cgt_figure_take_hand(cgt_figure *figure)
+{
+    cgt_camera_path_fixed(&figure->path, &figure->hand, 0.0);
+    figure->camera = figure->hand;
+    cgt_figure_choose_light(figure);
 }
 
 /* ---- All that is left ---------------------------------------------------------------------------------------- */
@@ -354,22 +385,33 @@ static void drop_speeds(cgt_figure *figure)
     figure->sequence.tracker = NULL;
 }
 
+void cgt_figure_choose_ambient(cgt_figure *figure)
+{
+    picture_options *const o = &figure->options.picture;
+    const style_values *const s = cgt_style_get(o->style);
+    if (o->ambient < 0)
+        o->ambient =
+            figure->has_survey && figure->survey.kind == CGT_TRAJECTORY_TRIANGLES ? s->mesh_ambient : s->ambient;
+}
+
+int cgt_figure_make_scene(cgt_figure *figure)
+{
+    const cgt_result result = cgt_scene_create(figure->context, NULL, &figure->scene);
+    if (result)
+        return cgt_figure_fail_library(figure, "make a scene", result);
+    return figure->options.bounce.is_set ? cgt_figure_bounce_create(figure) : 0;
+}
+
 int cgt_figure_settle(cgt_figure *figure)
 {
     figure_options *const o = &figure->options;
     drop_speeds(figure);
-    const cgt_result result = cgt_scene_create(figure->context, NULL, &figure->scene);
-    if (result)
-        return cgt_figure_fail_library(figure, "make a scene", result);
-    if (o->picture.ambient < 0) {
-        const style_values *const s = cgt_style_get(o->picture.style);
-        o->picture.ambient = figure->is_mesh ? s->mesh_ambient : s->ambient;
-    }
+    cgt_figure_choose_ambient(figure);
     cgt_camera_path_at(&figure->path, 0.0, &figure->camera);
     cgt_figure_choose_light(figure);
     if (o->floor.is_set)
         cgt_figure_scene_floor(figure);
-    return o->bounce.is_set ? cgt_figure_bounce_create(figure) : 0;
+    return cgt_figure_make_scene(figure);
 }
 
 void cgt_figure_close(cgt_figure *figure)

@@ -76,6 +76,12 @@ coloring_by cgt_coloring_choose(const survey *s);
 void cgt_coloring_choose_range(const survey *s, coloring_by by, int axis, int logarithmic, const double origin[3],
                                double *min, double *max);
 
+/* Whether the colours are those of values. */
+static inline int cgt_coloring_has_range(const coloring *c)
+{
+    return c->by != COLORING_TYPE && c->by != COLORING_ELEMENT && c->by != COLORING_PLAIN;
+}
+
 /* Widens a range to one about 0. */
 static inline void cgt_coloring_make_symmetric(double *min, double *max)
 {

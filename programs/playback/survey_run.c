@@ -8,49 +8,73 @@
 
 #include "common/program.h"
 
-/* Looks at the frame `number`, or skips it where it is beyond those that are wanted. Results as those of
+/* The frame `number` is read, or skipped where it is beyond those that are wanted. Results as those of
  * frame_source_read. */
-static int visit(frame_source *source, const survey_plan *plan, uint64_t number, survey_team *team, char *error,
-                 size_t error_size)
+static int visit(frame_source *source, uint64_t number, int is_wanted, char *error, size_t error_size)
 {
-    if (number < plan->most) {
-        const int state = frame_source_read(source, number, error, error_size);
-        if (state == 1)
-            cgt_survey_look(team);
-        return state;
-    }
+    if (is_wanted)
+        return frame_source_read(source, number, error, error_size);
     const int state = frame_keep_skip(&source->keep, source->file, error, error_size);
     source->next += state == 1;
     return state;
 }
 
-int survey_run(frame_source *source, const survey_plan *plan, survey *result, char *error, size_t error_size)
+int survey_walk_run(survey_walk *walk, frame_source *source, char *error, size_t error_size)
 {
     program_progress progress;
-    survey_team team;
-    int state = 1;
-    uint64_t number = 0;
-    cgt_survey_begin(&team, source->sequence, plan->fit, plan->context, result);
+    uint64_t most = walk->most;
+    int state = 1, wrong = 0;
+    walk->frames = walk->total = 0;
     frame_keep_begin(&source->keep);
-    program_progress_start(&progress, "reading", "frames", 0.0, plan->quiet);
-    while (!*plan->stop && (plan->count || number < plan->most)) {
-        state = visit(source, plan, number, &team, error, error_size);
+    program_progress_start(&progress, "reading", "frames", 0.0, walk->quiet);
+    while (!*walk->stop && (walk->count || walk->total < most)) {
+        state = visit(source, walk->total, walk->total < most, error, error_size);
         if (state != 1)
             break;
-        number++;
-        program_progress_update(&progress, (double)number, cgt_trajectory_progress(source->file));
+        const int looked = walk->total < most ? walk->look(walk->user, error, error_size) : 0;
+        wrong = looked < 0;
+        if (wrong)
+            break;
+        walk->frames += walk->total < most;
+        walk->total++;
+        most = looked ? walk->total : most;
+        program_progress_update(&progress, (double)walk->total, cgt_trajectory_progress(source->file));
     }
     program_progress_end(&progress);
     frame_keep_end(&source->keep, state == 0 && !source->follows);
-    cgt_survey_end(&team);
-    if (*plan->stop) {
+    walk->has_total = state != 1;
+    walk->is_cut = state < 0;
+    if (*walk->stop)
         snprintf(error, error_size, "interrupted");
-        return -1;
-    }
-    result->has_total = state != 1;
-    result->total = number;
-    result->is_cut = state < 0;
     /* A file that is cut off, or still being written, is good for its whole frames: the error comes again after
      * them. */
-    return state < 0 && number == 0 ? -1 : frame_source_rewind(source, error, error_size);
+    if (*walk->stop || wrong || (state < 0 && walk->total == 0))
+        return -1;
+    return frame_source_rewind(source, error, error_size);
+}
+
+static int look(void *user, char *error, size_t error_size)
+{
+    (void)error;
+    (void)error_size;
+    cgt_survey_look(user);
+    return 0;
+}
+
+int survey_run(frame_source *source, const survey_plan *plan, survey *result, char *error, size_t error_size)
+{
+    survey_team team;
+    survey_walk walk = {.most = plan->most,
+                        .count = plan->count,
+                        .quiet = plan->quiet,
+                        .stop = plan->stop,
+                        .look = look,
+                        .user = &team};
+    cgt_survey_begin(&team, source->sequence, plan->fit, plan->context, result);
+    const int failed = survey_walk_run(&walk, source, error, error_size);
+    cgt_survey_end(&team);
+    result->has_total = walk.has_total;
+    result->total = walk.total;
+    result->is_cut = walk.is_cut;
+    return failed;
 }

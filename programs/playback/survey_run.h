@@ -9,6 +9,25 @@
 #include "playback/frame_source.h"
 #include "survey/survey.h"
 
+/* A walk along the frames of a file, from the first on. */
+typedef struct survey_walk {
+    uint64_t most;         /* looks at the first frames alone, this many, */
+    int count;             /* and counts the frames up to the file's end in any case */
+    int quiet;             /* no progress on the terminal */
+    const stop_flag *stop; /* not 0: ends the walk with an error */
+    int (*look)(void *user, char *error, size_t error_size); /* at the frame of the source's sequence: 0; 1: no other
+                                                                one is needed; -1 with a text */
+    void *user;
+    /* Found: */
+    uint64_t frames, total; /* looked at; of the file, where has_total */
+    int has_total;
+    int is_cut; /* the file goes on after them, with an error, whose text is there */
+} survey_walk;
+
+/* Walks, and goes back to the start. Where an error follows some whole frames those were looked at, and reading them
+ * again ends in the error. Returns 0, or -1 with a text. */
+int survey_walk_run(survey_walk *walk, frame_source *source, char *error, size_t error_size);
+
 /* What a survey does. */
 typedef struct survey_plan {
     uint64_t most;                /* looks at the first frames alone, this many */
@@ -19,8 +38,7 @@ typedef struct survey_plan {
     const camera_directions *fit; /* of spheres, and one more of triangles: what the camera needs; NULL: nothing */
 } survey_plan;
 
-/* Reads the frames of a file and goes back to the start. Where an error follows some whole frames it surveys those, and
- * reading them again ends in the error. Returns 0, or -1 with a text. */
+/* Surveys the frames of a file by such a walk. */
 int survey_run(frame_source *source, const survey_plan *plan, survey *result, char *error, size_t error_size);
 
 #endif

@@ -191,7 +191,7 @@ static void print_summary(const renderer *r)
     FILE *const to = r->summary;
     static const char *const names[] = {"auto", "type", "id", "speed", "height", "one for all", "element", "formula"};
     const render_options *o = &r->options;
-    char name[4096];
+    char name[4096], camera[FIGURE_CAMERA_SIZE];
     if (r->report.count == 0)
         return;
     fprintf(to, "%s: %" PRIu32 "x%" PRIu32, o->input, o->figure.width, o->figure.height);
@@ -199,8 +199,8 @@ static void print_summary(const renderer *r)
         fprintf(to, ", %" PRIu32 " rays a pixel", o->figure.samples * o->figure.samples);
     fprintf(to, ", %" PRIu32 " thread%s, variant %s\n", cgt_context_get_threads(r->context),
             cgt_context_get_threads(r->context) == 1 ? "" : "s", cgt_context_get_variant(r->context));
-    fprintf(to, "camera            -c ");
-    renderer_print_camera(r, &r->figure.path.start, to);
+    cgt_figure_name_camera(&r->figure, &r->figure.path.start, camera);
+    fprintf(to, "camera            -c %s", camera);
     fprintf(to, "colour            %s",
             r->figure.coloring.by == COLORING_VALUE ? o->figure.formula : names[r->figure.coloring.by]);
     if (r->figure.coloring.by != COLORING_TYPE && r->figure.coloring.by != COLORING_PLAIN &&

@@ -51,13 +51,3 @@ int render_picture_setup(renderer *r)
 {
     return render_result(r, cgt_figure_open_picture(&r->figure)) || describe(r) ? -1 : 0;
 }
-
-void render_picture_close(renderer *r)
-{
-    cgt_figure_close_picture(&r->figure);
-    memset(r->texts, 0, sizeof r->texts);
-    r->text_count = 0;
-    free(r->settings);
-    free(r->options.settings);
-    r->settings = r->options.settings = NULL;
-}

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "trajectory/trajectory_status.h"
+#include "render/render_input.h"
 
 int render_fail(renderer *r)
 {
@@ -27,20 +27,6 @@ int render_result(renderer *r, int result)
     if (result)
         program_error("%s", r->figure.message);
     return result;
-}
-
-void renderer_print_camera(const renderer *r, const cgt_camera *camera, FILE *to)
-{
-    char text[FIGURE_CAMERA_SIZE];
-    cgt_figure_name_camera(&r->figure, camera, text);
-    fputs(text, to);
-}
-
-static void on_log(void *user, cgt_log_level level, const char *message)
-{
-    static const char *const names[] = {"error", "warning", "info"};
-    (void)user;
-    program_error("%s: %s", level <= CGT_LOG_LEVEL_INFO ? names[level] : "log", message);
 }
 
 static int make_folders(renderer *r)
@@ -131,21 +117,10 @@ static int survey_input(renderer *r)
     return 0;
 }
 
-/* What is no atom is left out unless the formula of --show names it. */
-static int shows_sites(const figure_options *o)
-{
-    char error[256];
-    expression *const show = *o->particles.show ? cgt_expression_parse(o->particles.show, error, sizeof error) : NULL;
-    const int uses = show && cgt_expression_uses(show, "site");
-    cgt_expression_free(show);
-    return uses;
-}
-
 static int open_figure(renderer *r)
 {
     cgt_figure *const figure = &r->figure;
     figure->options = r->options.figure;
-    figure->source = r->options.input;
     figure->context = r->context;
     figure->stop = stop_flag_is_set;
     figure->stop_user = r->stop;
@@ -156,26 +131,19 @@ static int open_figure(renderer *r)
 static int open_first(renderer *r)
 {
     render_options *o = &r->options;
-    const figure_options *f = &o->figure;
-    cgt_trajectory_sort_series(o->inputs, o->input_count);
-    o->input = o->inputs[0];
     if (open_figure(r))
         return -1;
-    /* which read the input twice */
-    o->reading.keep =
-        cgt_figure_needs_frames(&r->figure, o->output.survey) > 0 || needs_count(o) || r->figure.sequence.tracker;
-    o->reading.all_bonds = (f->particles.bonds && !(f->particles.bond_distance > 0.0f)) || f->whole || f->unwrap;
-    o->reading.leave_out_sites = !shows_sites(f);
-    o->reading.stop = stop_flag_is_set;
-    o->reading.stop_user = r->stop;
-    o->reading.threads = cgt_context_get_threads(r->context);
+    render_choose_reading(o, r->context,
+                          cgt_figure_needs_frames(&r->figure, o->output.survey) > 0 || needs_count(o) ||
+                              r->figure.sequence.tracker,
+                          r->stop);
+    r->figure.source = o->input;
     if (frame_source_open(&r->source, &r->figure.sequence, o->inputs, o->input_count, &o->reading, r->error,
                           sizeof r->error))
         return render_fail(r);
     r->source.keep.most = (size_t)o->memory_mib * (1024 * 1024);
     if (frame_source_want_columns(&r->source, r->error, sizeof r->error))
         return render_fail(r);
-    r->figure.is_mesh = cgt_trajectory_get_mesh(r->source.file) != NULL;
     cgt_trajectory_get_origin(r->source.file, r->figure.origin);
     if (cgt_figure_choose_camera_origin(&r->figure))
         cgt_trajectory_set_origin(r->source.file, r->figure.origin);
@@ -186,21 +154,11 @@ static int open_first(renderer *r)
 /* The mesh's first frame, which stays as long as the file is open. */
 static int open_mesh(renderer *r)
 {
-    const char *const path = r->options.mesh;
     cgt_trajectory_frame mesh;
-    if (!path)
+    if (!r->options.mesh)
         return 0;
-    const cgt_result opened = cgt_trajectory_open(path, NULL, &r->mesh);
-    if (trajectory_failed(r->mesh, opened, r->error, sizeof r->error))
-        return render_fail(r);
-    cgt_trajectory_set_origin(r->mesh, r->figure.origin);
-    const int read = trajectory_status(r->mesh, cgt_trajectory_read(r->mesh, &mesh), r->error, sizeof r->error);
-    if (read < 0)
-        return render_fail(r);
-    if (read == 0 || mesh.kind != CGT_TRAJECTORY_TRIANGLES) {
-        program_error("--mesh: %s has no triangles", path);
+    if (render_read_mesh(&r->options, r->figure.origin, &r->mesh, &mesh))
         return -1;
-    }
     return render_result(r, cgt_figure_scene_mesh(&r->figure, &mesh));
 }
 
@@ -247,42 +205,23 @@ static int prepare_pictures(renderer *r)
     return render_picture_setup(r);
 }
 
-static int create_context(renderer *r)
-{
-    cgt_context_options options;
-    cgt_context_options_init(&options);
-    options.threads = r->options.threads;
-    options.variant = r->options.variant;
-    if (r->options.verbose)
-        options.log.write = on_log;
-    const cgt_result result = cgt_context_create(&options, &r->context);
-    if (result) {
-        char reason[256];
-        cgt_context_get_error_message(r->context, reason, sizeof reason);
-        program_error("cannot start the library: %s: %s", cgt_get_result_string(result), reason);
-    }
-    return result ? -1 : 0;
-}
-
-int render_check_kind(void *user, const cgt_trajectory_frame *frame)
+/* Refuses options that do not fit the kind of the file's first frame; user: the renderer. */
+static int check_kind(void *user, const cgt_trajectory_frame *frame)
 {
     const renderer *const r = user;
     const render_options *o = &r->options;
-    const int triangles = frame->kind == CGT_TRAJECTORY_TRIANGLES;
-    const char *wrong = NULL;
-    if (triangles && r->figure.coloring.by == COLORING_TYPE && !frame->type)
-        wrong = "--color type: the triangles of this file have no types; id, speed, height or RRGGBB will do";
-    else if (triangles && (o->reading.radius > 0.0f || o->reading.wrapped))
-        wrong = "--radius and --wrapped are for spheres, and this is a file of triangles";
-    else if (!triangles && (o->reading.fps > 0.0 || o->reading.clip))
-        wrong = "--fps and --clip are for meshes, and this is a file of spheres";
-    if (wrong)
-        program_error("%s: %s", o->input, wrong);
+    const int is_wrong =
+        frame->kind == CGT_TRAJECTORY_TRIANGLES && r->figure.coloring.by == COLORING_TYPE && !frame->type;
+    if (is_wrong)
+        program_error("%s: --color type: the triangles of this file have no types; id, speed, height or RRGGBB will do",
+                      o->input);
+    if (is_wrong || render_check_reading(o, frame->kind))
+        return -1;
     char bonds[256];
-    const int failed = wrong || cgt_figure_check_bonds(&o->figure, frame, bonds, sizeof bonds);
-    if (!wrong && *bonds)
+    const int failed = cgt_figure_check_bonds(&o->figure, frame, bonds, sizeof bonds);
+    if (*bonds)
         program_error("%s", bonds);
-    return failed ? -1 : 0;
+    return failed;
 }
 
 /* The end of the chosen frames that this run may render; UINT64_MAX: where the input ends. */
@@ -325,19 +264,10 @@ static int start_threads(renderer *r)
     reader->next = r->begin;
     reader->end = end_of_frames(r);
     reader->stop = r->stop;
-    reader->check = render_check_kind;
+    reader->check = check_kind;
     reader->user = r;
     reader->figure = &r->figure;
     return render_reader_start(reader);
-}
-
-int render_prepare(renderer *r)
-{
-    cgt_figure *const figure = &r->figure;
-    if (create_context(r) || open_input(r) || render_result(r, cgt_figure_choose_colors(figure)) || open_mesh(r) ||
-        render_result(r, cgt_figure_choose_camera(figure)) || render_result(r, cgt_figure_settle(figure)))
-        return -1;
-    return prepare_pictures(r);
 }
 
 int render_setup(renderer *r)
@@ -346,7 +276,11 @@ int render_setup(renderer *r)
     for (uint32_t i = 0; i < r->options.output_count; i++)
         if (render_output_kind(r->options.outputs[i].pattern) == OUTPUT_RAW)
             r->summary = stderr;
-    if (render_prepare(r))
+    cgt_figure *const figure = &r->figure;
+    if (render_create_context(&r->options, &r->context) || open_input(r) ||
+        render_result(r, cgt_figure_choose_colors(figure)) || open_mesh(r) ||
+        render_result(r, cgt_figure_choose_camera(figure)) || render_result(r, cgt_figure_settle(figure)) ||
+        prepare_pictures(r))
         return -1;
     if (r->options.cell.mode && render_cell_create(r))
         return -1;
@@ -357,7 +291,8 @@ void render_close(renderer *r)
 {
     render_reader_finish(&r->reader);
     render_cell_release(r->cell);
-    render_picture_close(r);
+    free(r->settings);
+    free(r->options.settings);
     cgt_coloring_free(&r->reader.coloring);
     frame_source_close(&r->source);
     cgt_figure_close(&r->figure);
