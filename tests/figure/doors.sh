@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # The same options and frames give the same bytes through cgt-render and through <cgt/figure.h>, whose frames are those of
-# a file, or a program's columns, and may be kept; and through Python's cgt.Figure where CGT_FIGURE_PYTHON is a Python that has it.
+# a file, or a program's columns, and may be kept; and through Python's cgt.Figure, where CGT_FIGURE_PYTHON has it.
 #   doors.sh CGT_RENDER DATA_DIR FIGURE_RAW [EMULATOR...]
 here=$(cd "$(dirname "$0")" && pwd)
 raw=$(cd "$(dirname "$3")" && pwd)/$(basename "$3")
