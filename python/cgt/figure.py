@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import difflib
+import importlib.util
 import math
 import os
 import re
@@ -81,7 +82,7 @@ def _text_of(keyword: str, row, value) -> str:
     if isinstance(value, (str, os.PathLike)):
         text = os.fsdecode(value)
         try:
-            is_text = b"\0" not in os.fsencode(text)
+            is_text = not {0, 10} & set(os.fsencode(text))  # C's end, and that of a setting
         except UnicodeEncodeError:
             is_text = False
         if not is_text:
@@ -266,12 +267,11 @@ class Figure(Plain):
             figure, trial = self._open, self._create()
             if texts == self._texts:
                 return self
-            for handle in (trial, figure):  # one that is refused leaves this one as it is
+            lines = [f"{name} = {value}" if value is not None else name for name in texts for value in texts[name]]
+            settings = ffi.new("char[]", os.fsencode("\n".join(lines)))
+            for handle in (trial, figure):  # what is refused leaves this one as it is
                 self._check(lib.cgt_figure_unset(handle, ffi.NULL), handle)
-                for name, values in texts.items():
-                    for value in values:
-                        c = ffi.NULL if value is None else ffi.new("char[]", os.fsencode(value))
-                        self._check(lib.cgt_figure_set(handle, name.encode(), c), handle)
+                self._check(lib.cgt_figure_set_lines(handle, settings), handle)
             self._texts = texts
             self._forget((self._shown or self._again) if self._looked != "survey" else None)
             return self
@@ -406,7 +406,7 @@ class Figure(Plain):
 
     @property
     def camera(self) -> Camera:
-        """The camera of the shown frame, less the data's origin; a copy."""
+        """The camera of the shown frame, less the data's origin, a copy; one that is assigned is that of all frames."""
         c = ffi.new("cgt_camera *")
         with self._gate.alone:
             result = lib.cgt_figure_get_camera(self._open, c)
@@ -416,6 +416,37 @@ class Figure(Plain):
         camera._struct[0] = c[0]
         return camera
 
+    @camera.setter
+    def camera(self, camera: Camera) -> None:
+        c = instance("camera", camera, Camera)._copy()._struct
+        with self._gate.alone:
+            result = lib.cgt_figure_set_camera(self._open, c)
+            self._pixels = None
+        if result:
+            raise InvalidArgument("camera: eye and target are the same")
+
+    def fit(self) -> "Figure":
+        """Moves the camera so that it shows all of the shown frame, in the same direction; returns the figure."""
+        with self._gate.alone:
+            self._check(lib.cgt_figure_fit(self._open))
+            self._pixels = None
+        return self
+
+    def pick(self, x: int, y: int) -> SimpleNamespace:
+        """What a pixel of the shown frame shows.
+
+        Returns
+        -------
+        SimpleNamespace
+            is_hit; is_data: a particle or triangle, whose number is `element`; else a bond, a line, the floor, the
+            mesh; t, place: the distance from the camera, and where, less the data's origin.
+        """
+        hit = ffi.new("cgt_figure_hit *")
+        width, height = self.size
+        with self._gate.alone:
+            self._check(lib.cgt_figure_pick(self._open, whole("x", x, 0, width - 1), whole("y", y, 0, height - 1), hit))
+        return SimpleNamespace(**struct_values(hit[0], ffi))
+
     # ---- pictures ----
 
     def draw(self) -> np.ndarray:
@@ -423,7 +454,7 @@ class Figure(Plain):
         if self._again is not None:
             self._show(self._again)
         if self._open and self._shown is None:
-            raise InvalidArgument("figure: nothing is shown: show() a frame, also where options were set after a survey")
+            raise InvalidArgument("figure: nothing is shown: show() a frame; after a survey set() asks for both anew")
         width, height = self.size
         with self._gate.alone:
             pixels, keep = np.zeros((height, width, 3), U1), []
@@ -451,9 +482,29 @@ class Figure(Plain):
         with open(path, "wb") as file:
             file.write(data)
 
+    def _draw_quick(self, shrink: int) -> np.ndarray:
+        """The shown frame without shadows, one ray for so many pixels along each edge."""
+        width, height = self.size
+        with self._gate.alone:
+            pixels = np.zeros((height, width, 3), U1)
+            hold, image = Hold(pixels), ffi.new("cgt_image *", {"bytes": _arrays.pointer(pixels), "channels": 3})
+            self._check(lib.cgt_figure_draw_quick(self._open, lib.CGT_FIGURE_PLAIN, shrink, image))
+            del hold
+            return pixels
+
     def _repr_png_(self) -> Optional[bytes]:
         """What a notebook shows."""
         return None if self._shown is self._again is None else encode_png(self.pixels)
+
+    def _repr_mimebundle_(self, **_: Any) -> Optional[Dict[str, Any]]:
+        """The same, which the mouse turns where anywidget is installed and the kernel runs."""
+        png = self._repr_png_()
+        if png is None or importlib.util.find_spec("anywidget") is None:
+            return None
+        from ._widget import Turned
+
+        found: Any = Turned(self)._repr_mimebundle_()
+        return {**((found[0] if isinstance(found, tuple) else found) or {}), "image/png": png, "text/plain": repr(self)}
 
     def movie(self, path, run, fps: float = 25.0, quality: int = 80, survey: bool = True, progress: bool = True,
               **more) -> "Figure":

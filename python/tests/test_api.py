@@ -32,6 +32,15 @@ FUNCTIONS_LEFT_OUT = {
     **{"cgt_camera_fit_" + name: "Camera.fit" for name in ("create", "release", "add", "add_box", "apply")},
     "cgt_srgb_from_linear": "cgt_srgb_encode, for colours that are given",
     **{f"cgt_get_{kind}_color": "Figure has the colours of types and elements" for kind in ("type", "element")},
+    # cgt-figure
+    "cgt_figure_set": "set_lines, all at once", "cgt_figure_set_source": "messages of data, which have no path",
+    "cgt_figure_needs_frame": "a survey looks at all that it is given",
+    "cgt_figure_set_stop": "pictures end by themselves",
+    "cgt_figure_get_chosen": "Figure.camera; another figure chooses anew", "cgt_figure_get_up": "Figure.camera",
+    "cgt_figure_describe": "the caller has the columns of what pick finds",
+    **{f"cgt_figure_{name}": "for windows in C" for name in (
+        "begin", "step", "read", "begin_keep", "keep", "show_frame", "frame_get_bytes", "frame_get_data",
+        "frame_release")},
     # cgt-mpi
     "cgt_mpi_draw_rows": "rows come to rank 0", "cgt_mpi_get_scene": "a scene of one process has all calls",
     # cgt-trajectory
@@ -102,7 +111,7 @@ def parts():
         elif name == "figure":
             data = [importlib.import_module("cgt._figure_data").FigureData]
             places = {name: data for name in ("column", "points", "triangles", "bonds", "box", "data")}
-            more = {"cgt_figure_option": ALL}
+            more = {"cgt_figure_option": ALL, "cgt_figure_hit": ALL}
         elif name == "mpi":
             places, more = {"options": [module.Job], "geometry": [module.Job, geometry]}, {}
         else:

@@ -3,10 +3,14 @@
 """Figures: what options and data of Python's mean; the same data from other packages; movies, the window. That pictures
 have the bytes of cgt-render is compared by tests/figure/doors.sh."""
 import copy
+import importlib.machinery
+import importlib.util
+import json
 import os
 import pickle
 import shutil
 import subprocess
+import sys
 import types
 
 import numpy as np
@@ -62,6 +66,7 @@ floor = 228b22
     assert figure.options["shadows"] is True and "no_shadows" not in figure.options
     assert cgt.Figure(camera=cgt.Camera((0, -9, 1), projection="orthographic")).options["ortho"] is True
     assert figure.unset().options == {} and figure.size == (1280, 720)
+    assert cgt.Figure(material={"all": "glass"}, bounces=3).settings == "material = all=glass\nbounces = 3\n"
     known = cgt.figure.options()
     assert known["text_size"].kind == "number" and known["style"].words == ("soft", "paper", "plain")
 
@@ -76,7 +81,7 @@ def test_what_is_refused_changes_nothing():
         ({"style": "paper", "antialias": 3}, "antialias: 3 is not 1, 2 or 4"),
         ({"material": {2: "glass"}}, "material is for bounces"), ({"size": object()}, "size: <object"),
         ({"show": "x >"}, "show: "), ({"camera_keys": "x"}, "camera.keys"),
-        ({"title": "a\0b"}, "title: .*C cannot read"),
+        ({"title": "a\0b"}, "title: .*C cannot read"), ({"title": "a\nb"}, "title: .*C cannot read"),
     ):
         with pytest.raises(cgt.InvalidArgument, match=message):
             figure.set(**options)
@@ -111,6 +116,13 @@ def test_options_count_at_once_and_surveys_for_a_run():
     assert same(surveyed.show(X).pixels, cgt.Figure(**SIZE).survey(iter(run)).show(X).pixels)
     with pytest.raises(cgt.InvalidArgument, match="nothing is shown"):
         surveyed.set(color="red").draw()
+    turned = surveyed.show(X).camera
+    turned.orbit(90)
+    surveyed.camera = turned
+    assert not np.array_equal(surveyed.draw(), before := surveyed.show(run[2]).pixels) and before.std() > 5
+    assert np.array_equal(surveyed.camera.eye, turned.eye) and not np.array_equal(surveyed.fit().camera.eye, turned.eye)
+    hit = cgt.Figure(**SIZE, view="front").show(X[:1], radius=2).pick(30, 20)
+    assert hit.is_hit and hit.is_data and hit.element == 0 and np.linalg.norm(hit.place) == pytest.approx(2, 1e-3)
     far = cgt.Figure(**SIZE).show(X + 1e7)
     assert same(far.pixels, pixels(X)) and abs(far.camera.target).max() < 10
     wall = cgt.Figure(**SIZE).set_mesh((X + [0, 2, 0], [[0, 1, 2]])).show(X)
@@ -243,3 +255,66 @@ def test_show_opens_the_window(tmp_path, monkeypatch):
     folders = [window.folder for window in _show._Window._open]
     _show._Window._close_all()
     assert not any(os.path.exists(folder) for folder in folders)
+
+
+PAGE = """
+import page from PATH;
+const sent = [], listeners = {}, taken = [];
+const image = { style: {}, addEventListener: (name, f) => { listeners[name] = f; }, setPointerCapture() {} };
+globalThis.document = { createElement: () => image };
+URL.createObjectURL = (blob) => `blob ${blob.size}`;
+URL.revokeObjectURL = (url) => taken.push(url);
+let hear = null;
+const model = { send: (m) => sent.push({ ...m }), on: (_, f) => { hear = f; }, off() {} };
+page.render({ model, el: { appendChild() {} } });
+const picture = () => hear({ width: 60 }, [new Uint8Array(5)]);
+picture();
+listeners.pointermove({ clientX: 9, clientY: 9 }); // nothing is held
+listeners.pointerdown({ clientX: 1, clientY: 1, pointerId: 1 });
+for (const k of [4, 6, 9]) listeners.pointermove({ clientX: k, clientY: 1 }); // two while one is under way
+picture();
+listeners.pointerup();
+picture();
+picture();
+listeners.wheel({ preventDefault() {}, deltaY: 500 });
+picture();
+listeners.dblclick();
+console.log(JSON.stringify({ sent, src: image.src, width: image.width, taken: taken.length }));
+"""
+
+
+def test_the_mouse_turns_it_in_a_notebook(tmp_path, monkeypatch):
+    figure = cgt.Figure(**SIZE).show(X)
+    if importlib.util.find_spec("anywidget") is None:
+        assert figure._repr_mimebundle_() is None  # then _repr_png_ counts
+        sent, calls = [], {"on_msg": lambda self, call: None, "_repr_mimebundle_": lambda self: ({"a/view": {}}, {})}
+        base = type("AnyWidget", (), {**calls, "send": lambda self, *a, **b: sent.append((a, b))})
+        module = types.ModuleType("anywidget")
+        module.AnyWidget, module.__spec__ = base, importlib.machinery.ModuleSpec("anywidget", None)
+        monkeypatch.setitem(sys.modules, "anywidget", module)
+    else:
+        pytest.skip("anywidget wants a kernel")
+    bundle = figure._repr_mimebundle_()
+    assert set(bundle) == {"a/view", "image/png", "text/plain"} and bundle["image/png"] == figure._repr_png_()
+    from cgt import _widget
+
+    widget, still = _widget.Turned(figure), {"x": 0, "y": 0, "zoom": 1, "fit": False, "rest": True}
+    first, eyes, distances = figure.pixels, [figure.camera.eye], []
+    for told in ({}, {"x": 30, "rest": False}, {"y": 900}, {"zoom": 2}, {"fit": True}):
+        widget._hear(widget, {**still, **told}, None)
+        eyes.append(figure.camera.eye)
+        distances.append(np.linalg.norm(eyes[-1] - figure.camera.target))
+        assert sent[-1][0] == ({"width": 60},) and sent[-1][1]["buffers"][0][1:4] == b"PNG"
+    assert np.array_equal(eyes[0], eyes[1]) and abs(eyes[2][2] - eyes[1][2]) < 1e-4 and eyes[3][2] > eyes[2][2]
+    assert distances[:4] == pytest.approx([distances[0] * k for k in (1, 1, 1, 2)], 1e-5)
+    assert distances[4] < distances[3] and not np.array_equal(figure.pixels, first)
+    node = shutil.which("node")
+    if node is None:
+        return
+    (tmp_path / "page.mjs").write_text(_widget.Turned._esm)
+    (tmp_path / "test.mjs").write_text(PAGE.replace("PATH", '"./page.mjs"'))
+    found = json.loads(subprocess.run([node, tmp_path / "test.mjs"], capture_output=True, check=True).stdout)
+    assert [(m["x"], m["zoom"], m["fit"], m["rest"]) for m in found["sent"]] == [
+        (0, 1, False, True), (3, 1, False, False), (5, 1, False, False), (0, 1, False, True),
+        (0, pytest.approx(np.e), False, True), (0, 1, True, True)]
+    assert found["src"] == "blob 5" and found["width"] == 60 and found["taken"] == 4
