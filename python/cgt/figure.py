@@ -51,11 +51,13 @@ def options() -> Dict[str, SimpleNamespace]:
     >>> cgt.figure.options()["style"].words
     ('soft', 'paper', 'plain')
     """
-    return {name.replace("-", "_"): SimpleNamespace(**vars(row)) for name, row in _OPTIONS.items()}
+    return {name.replace("-", "_"): SimpleNamespace(**{**vars(row), "help": _in_python(row.help)})
+            for name, row in _OPTIONS.items()}
 
 
 def _in_python(text: str) -> str:
     """A sentence of C's, with options called as they are here."""
+    text = re.sub(r"(?<![\w-])-c\b", "camera", text)
     return re.sub(r"--([a-z][a-z-]*)", lambda m: m[1].replace("-", "_") if m[1] in _OPTIONS else m[0], text)
 
 
