@@ -3,6 +3,7 @@
 """What figures draw, from the objects that others have it in: arrays, frames, meshes, atoms."""
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from typing import Any, Dict, Iterator, Optional
 
@@ -23,7 +24,7 @@ class FigureData:
     def __init__(self, positions, *, radius=None, columns: Optional[Mapping] = None, bonds=None, cell=None, pbc=True,
                  triangles=None, corner=(0.0, 0.0, 0.0), unwrapped=(0, 0, 0), angstrom: float = 1.0,
                  number: Optional[int] = None, step: Optional[int] = None, time: Optional[float] = None,
-                 origin=None):
+                 origin=None, unread=()):
         self.positions = _floats("positions", positions, ("n", 3))
         count = len(self.positions)
         self.columns: Dict[str, Any] = {}
@@ -47,7 +48,7 @@ class FigureData:
             check_shape("cell", self.edges, (3, 3))
             self.periodic = np.broadcast_to(np.asarray(pbc), (3,)).astype(np.int8)
             self.corner, self.unwrapped = numbers("corner", corner, F8, (3,)), np.asarray(unwrapped) != 0
-        self.number, self.step, self.time = number, step, time
+        self.number, self.step, self.time, self.unread = number, step, time, unread
 
     def fill(self, ffi, number: int, origin, keep: list):
         """The C struct, and in `keep` what it points to."""
@@ -118,6 +119,10 @@ def _column(name: str, values, count: int):
 
 def take(given, **more) -> FigureData:
     """The frame that an object is; `more` replaces what it says."""
+    if isinstance(given, (Trajectory, TrajectorySlice)):
+        raise InvalidArgument(f"data: {given!r}: show() takes one of its frames; survey() and movie() take all")
+    if isinstance(given, (str, os.PathLike)):
+        raise InvalidArgument(f"data: {given!r}: cgt.read opens files, and its frames are data")
     if isinstance(given, TrajectoryFrame):
         found = _of_frame(given)
     elif hasattr(given, "get_atomic_numbers"):
@@ -158,7 +163,7 @@ def _of_frame(f: TrajectoryFrame) -> dict:
     columns.update((name, values) for name, values in f.columns.items() if name not in _OWN)
     found = {"positions": positions, "columns": columns, "triangles": f.triangles, "bonds": f.bonds,
              "angstrom": f.angstrom, "number": f.number, "step": f.step, "origin": f.origin.tolist(),
-             "time": None if np.isnan(f.time) else f.time}
+             "time": None if np.isnan(f.time) else f.time, "unread": set(f.column_names) - set(f.columns)}
     if f.box_edges is not None:
         found.update(cell=f.box_edges, corner=f.box_origin + f.origin, pbc=f.periodic, unwrapped=f.unwrapped)
     return found
@@ -255,6 +260,8 @@ def is_run(given) -> bool:
     """Whether an object is frames one after the other."""
     if isinstance(given, (Trajectory, TrajectorySlice)) or hasattr(given, "trajectory"):
         return True
+    if isinstance(given, (str, bytes)):
+        return False
     if hasattr(given, "xyz") and hasattr(given, "topology"):
         return len(given.xyz) != 1
     return not isinstance(given, tuple) and hasattr(given, "__iter__") and not hasattr(given, "__array__") and not any(

@@ -314,8 +314,11 @@ class Figure(Plain):
         c = data.fill(ffi, number, self._origin, keep)
         try:
             self._check(call(self._open, c))
-        except Error:
+        except Error as error:
             self._forget()
+            unread = [name for name in data.unread if f'column "{name}"' in str(error)]
+            if unread:
+                raise InvalidArgument(f"{error}; the file has it: cgt.read(..., columns={unread})") from None
             raise
         del keep
 

@@ -93,6 +93,7 @@ def test_what_is_refused_changes_nothing():
         (X, {"bonds": [[0, 3]]}, "bond 0 ends at 3"), ((X, [[0, 1, 3]]), {}, "triangle 0 has the corner 3"),
         (X, {"cell": [[1, 2]]}, "cell: shape"), ([], {}, "positions: shape"), (X[:, :2], {}, "positions: shape"),
         ({"x": 1}, {}, "positions"), (X, {"number": -1}, "number: -1"), (X, {"colour": 1}, "colour"),
+        ("a.xyz", {}, "data: 'a.xyz': cgt.read opens files"), (None, {}, "positions"), (5.0, {}, "positions: shape"),
     ):
         with pytest.raises((cgt.InvalidArgument, TypeError), match=message):
             figure.show(data, **more)
@@ -180,6 +181,11 @@ def test_other_packages_have_the_same_data(tmp_path):
     path = tmp_path / "water.xyz"
     path.write_text("3\n\n" + "".join(f"{s} {x} {y} {z}\n" for s, (x, y, z) in zip("OHH", water)))
     assert same(pixels(cgt.read(path, all_bonds=True).read(), options), wanted)
+    path.write_text("1\nProperties=species:S:1:pos:R:3:charge:R:1\nO 0 0 0 5\n")
+    with pytest.raises(cgt.InvalidArgument, match="the file has it: cgt.read.*'charge'"):
+        pixels(cgt.read(path).read(), {"color": "charge"})
+    assert same(cgt.Figure(**SIZE, color="charge").survey(run := cgt.read(path)).show(run[0]).pixels,
+                pixels(cgt.read(path, columns="charge").read(), {"color": "charge"}))
     residue = types.SimpleNamespace(name="HOH", resSeq=1, chain=types.SimpleNamespace(index=0))
     kinds = [types.SimpleNamespace(element=types.SimpleNamespace(atomic_number=z), name=s, residue=residue, index=k)
              for k, (z, s) in enumerate([(8, "O"), (1, "H1"), (1, "H2")])]
