@@ -17,7 +17,7 @@ import numpy as np
 from ._arrays import array_of
 from ._figure_data import FigureData
 from ._native import InvalidArgument
-from .colors import light_of
+from .colors import code_of, light_of
 from .figure import Figure
 
 _DATA = ("columns", "cell", "pbc", "corner", "unwrapped", "angstrom", "number", "step", "time")
@@ -61,7 +61,10 @@ def show(data, radii=None, colors: Any = None, *, bonds: Any = False, window: Op
         raise InvalidArgument("colors: color says another thing")
     if not isinstance(bonds, (bool, int, float, np.number)):
         bonds, more["bonds"] = True, bonds
-    if isinstance(colors, (str, tuple)):
+    if isinstance(colors, str):
+        code = code_of(colors)
+        options["color"] = f"#{code}" if code else colors
+    elif isinstance(colors, tuple):
         options["color"] = colors
     elif colors is not None:
         a = array_of("colors", colors, np.nan)

@@ -9,6 +9,7 @@ from typing import Any
 import anywidget
 import numpy as np
 
+from .geometry import Camera
 from .picture import encode_png
 
 # One message is under way at a time: what the mouse does meanwhile is added up.
@@ -87,16 +88,16 @@ class Turned(anywidget.AnyWidget):
         self.send({"width": figure.size[0]}, buffers=[encode_png(pixels)])
 
 
-def turn(camera, x: float, y: float, zoom: float):
+def turn(camera: Camera, x: float, y: float, zoom: float) -> Camera:
     """A camera that goes around its target by pixels of a mouse, and so many times as far off."""
     up = camera.up / np.linalg.norm(camera.up)
     camera.orbit(-0.4 * x)
     arm = camera.eye - camera.target
     length = np.linalg.norm(arm)
-    height = math.asin(max(-1.0, min(1.0, float(arm @ up) / length)))
+    height = math.asin(np.clip(arm @ up / length, -1, 1))
     flat = arm - (arm @ up) * up
     flat /= max(np.linalg.norm(flat), 1e-30)
-    height = max(-1.5, min(1.5, height + 0.007 * y))  # never along the axis that points up
-    length *= max(0.1, min(10.0, zoom))
+    height = float(np.clip(height + 0.007 * y, -1.5, 1.5))  # never along the axis that points up
+    length *= np.clip(zoom, 0.1, 10)
     camera.eye = camera.target + length * (math.cos(height) * flat + math.sin(height) * up)
     return camera

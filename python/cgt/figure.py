@@ -89,7 +89,8 @@ def _text_of(keyword: str, row, value) -> str:
             is_text = False
         if not is_text:
             raise InvalidArgument(f"{keyword}: {value!r}: C cannot read this text")
-        return code_of(text) or text if is_color else text
+        may_be = is_color and (row.name != "color" or len(text) > 1)  # x and y are columns, too
+        return code_of(text) or text if may_be else text
     if isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool):
         return _number_text(keyword, value)
     if isinstance(value, (list, tuple, np.ndarray)):
@@ -97,7 +98,9 @@ def _text_of(keyword: str, row, value) -> str:
         if is_color and len(parts) == 3:
             return code_of_light(light_of(keyword, value))
         between = "x" if re.fullmatch(r"[A-Za-z]+x[A-Za-z]+", row.value or "") else ","
-        return between.join(code_of(p) or p if isinstance(p, str) else _number_text(keyword, p) for p in parts)
+        has_color = "RRGGBB" in (row.value or "")
+        return between.join((has_color and code_of(p) or p) if isinstance(p, str) else _number_text(keyword, p)
+                            for p in parts)
     raise InvalidArgument(f"{keyword}: {value!r}: must be text, a number, or several")
 
 

@@ -65,6 +65,8 @@ floor = 228b22
     assert figure.options["show"] == ["z > 0"] and figure.options["bonds"] == "1.5" and "sun" not in figure.options
     assert figure.options["shadows"] is True and "no_shadows" not in figure.options
     assert cgt.Figure(camera=cgt.Camera((0, -9, 1), projection="orthographic")).options["ortho"] is True
+    figure.unset().set(color="y", arrows=("x", "y", 1), lamp=[(1, 2, 3, 0.5, "y")], floor="y")
+    assert list(figure.options.values()) == ["y", "x,y,1", ["1,2,3,0.5,bfbf00"], "bfbf00"]
     assert figure.unset().options == {} and figure.size == (1280, 720)
     assert cgt.Figure(material={"all": "glass"}, bounces=3).settings == "material = all=glass\nbounces = 3\n"
     known = cgt.figure.options()
@@ -136,7 +138,7 @@ def test_options_count_at_once_and_surveys_for_a_run():
 def test_show_is_a_figure_in_a_line():
     plain = cgt.show(X, 0.5, **SIZE)
     assert isinstance(plain, cgt.Figure) and plain._repr_png_()[1:4] == b"PNG" and cgt.Figure()._repr_png_() is None
-    assert same(cgt.show(X, 0.5, "red", **SIZE).pixels, cgt.show(X, 0.5, ["red"] * 3, **SIZE).pixels,
+    assert same(cgt.show(X, 0.5, "r", **SIZE).pixels, cgt.show(X, 0.5, ["red"] * 3, **SIZE).pixels,
                 cgt.show(X, 0.5, (1.0, 0, 0), **SIZE).pixels, cgt.show(X, [0.5] * 3, [[1, 0, 0]] * 3, **SIZE).pixels,
                 cgt.show(X, 0.5, np.full((3, 3), [255, 0, 0], "u1"), **SIZE).pixels)
     values = np.array([3.0, 1, 2])
