@@ -96,7 +96,7 @@ def turn(camera: Camera, x: float, y: float, zoom: float) -> Camera:
     length = np.linalg.norm(arm)
     height = math.asin(np.clip(arm @ up / length, -1, 1))
     flat = arm - (arm @ up) * up
-    flat /= max(np.linalg.norm(flat), 1e-30)
+    flat /= max(float(np.linalg.norm(flat)), 1e-30)
     height = float(np.clip(height + 0.007 * y, -1.5, 1.5))  # never along the axis that points up
     length *= np.clip(zoom, 0.1, 10)
     camera.eye = camera.target + length * (math.cos(height) * flat + math.sin(height) * up)
