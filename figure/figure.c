@@ -68,7 +68,6 @@ cgt_result cgt_figure_create(cgt_context *context, cgt_figure **figure)
         return context ? CGT_ERROR_OUT_OF_MEMORY : CGT_ERROR_INVALID_ARGUMENT;
     made->context = context;
     made->source = "figure";
-    made->has_origin = 1;
     *figure = made;
     return cgt_figure_unset(made, NULL);
 }

@@ -260,7 +260,7 @@ static void unmake(cgt_figure *figure)
     figure->scene = NULL;
     figure->formula = NULL;
     figure->frame = NULL;
-    figure->has_geometry = figure->has_bonds_told = 0;
+    figure->has_geometry = figure->has_bonds_told = figure->is_open = 0;
 }
 
 /* Makes all anew, from the shown frame where it was not found before. */

@@ -63,6 +63,9 @@ int cgt_figure_open(cgt_figure *figure)
 {
     const figure_options *o = &figure->options;
     frame_sequence *const sequence = &figure->sequence;
+    if (figure->is_open)
+        return 0;
+    figure->is_open = 1;
     if (o->by == COLORING_VALUE &&
         !(figure->formula = cgt_expression_parse(o->formula, figure->message, sizeof figure->message)))
         return -1;
@@ -115,40 +118,6 @@ const camera_directions *cgt_figure_begin_fit(cgt_figure *figure)
 }
 
 /* ---- Origin ------------------------------------------------------------------------------------------------- */
-
-/* `more` is as seen from the origin so far. */
-static void take_origin(cgt_figure *figure, const double more[3], const char *what)
-{
-    for (int c = 0; c < 3; c++)
-        figure->origin[c] += more[c];
-    char text[300];
-    cgt_origin_tell(figure->origin, what, text, sizeof text);
-    cgt_notices_add(&figure->notices, "%s", text);
-}
-
-int cgt_figure_choose_camera_origin(cgt_figure *figure)
-{
-    const camera_key *const camera = &figure->options.camera;
-    double eye[3], target[3], origin[3];
-    for (int c = 0; c < 3; c++) {
-        eye[c] = camera->eye[c] - figure->origin[c];
-        target[c] = camera->target[c] - figure->origin[c];
-    }
-    if (!figure->options.has_camera || figure->has_origin || !cgt_origin_of_camera(eye, target, origin))
-        return 0;
-    take_origin(figure, origin, "the camera looks at places");
-    return 1;
-}
-
-int cgt_figure_choose_bulk_origin(cgt_figure *figure)
-{
-    double origin[3];
-    if (!figure->has_survey || figure->options.has_camera || figure->has_origin ||
-        figure->survey.kind == CGT_TRAJECTORY_TRIANGLES || !cgt_origin_of_bulk(&figure->survey.bulk, origin))
-        return 0;
-    take_origin(figure, origin, "the spheres are");
-    return 1;
-}
 
 int cgt_figure_move_cameras(cgt_figure *figure)
 {
@@ -311,9 +280,9 @@ static void follow_bulk(cgt_figure *figure)
     write_bounds(figure, was_min, was_max, bounds[1]);
     cgt_notices_add(&figure->notices,
                     "the camera follows the bulk, %s, and leaves out about %" PRIu64 " of %" PRIu64
-                    " %s of the run, which reaches %s",
-                    bounds[0], outside, s->drawable, s->kind == CGT_TRAJECTORY_TRIANGLES ? "triangles" : "spheres",
-                    bounds[1]);
+                    " %s%s of the run, which reaches %s",
+                    bounds[0], outside, s->drawable, s->hidden ? "shown " : "",
+                    s->kind == CGT_TRAJECTORY_TRIANGLES ? "triangles" : "spheres", bounds[1]);
 }
 
 int cgt_figure_choose_camera(cgt_figure *figure)
@@ -330,6 +299,8 @@ int cgt_figure_choose_camera(cgt_figure *figure)
     }
     cgt_figure_scene_bound(figure);
     if (!s->drawable) {
+        if (s->hidden)
+            cgt_notices_add(&figure->notices, "--show, --hide, --slice and --cut leave out all spheres of the run");
         for (int c = 0; c < 3; c++) {
             s->bounds_min[c] = -1.0f;
             s->bounds_max[c] = 1.0f;
@@ -406,6 +377,9 @@ int cgt_figure_settle(cgt_figure *figure)
 {
     figure_options *const o = &figure->options;
     drop_speeds(figure);
+    const int rays = (int)(o->samples * o->samples), is_first = !figure->shown;
+    if (is_first && o->picture.ambient > 0 && o->picture.ambient < rays)
+        cgt_notices_add(&figure->notices, "--ambient: each of a pixel's %d rays asks once: as with %d", rays, rays);
     cgt_figure_choose_ambient(figure);
     cgt_camera_path_at(&figure->path, 0.0, &figure->camera);
     cgt_figure_choose_light(figure);

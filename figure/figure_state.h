@@ -52,7 +52,6 @@ struct cgt_figure {
     cgt_context *context;           /* of the scene */
     bool (*stop)(const void *user); /* asked while a picture is made; NULL: nothing is */
     const void *stop_user;
-    int has_origin;        /* it was given: none is chosen */
     figure_settings given; /* what <cgt/figure.h> made the options from */
     figure_data mesh;      /* that stands still; without triangles: there is none */
     notices notices;       /* what a user should read */
@@ -91,7 +90,7 @@ struct cgt_figure {
     overlay_kind kinds[OVERLAY_MOST_KINDS]; /* of its legend */
 
     /* Of <cgt/figure.h> alone. */
-    int is_settled, is_surveying, has_bonds_told;
+    int is_open, is_settled, is_surveying, has_bonds_told;
     survey_team team;        /* while is_surveying */
     uint64_t next;           /* number of the frame that follows the last one */
     figure_data data;        /* the frame at hand, of the caller's columns */
@@ -154,7 +153,7 @@ cgt_result cgt_figure_change(cgt_figure *figure, settings_change change, const c
 
 /* ---- Before the first picture (figure_settle.c) ---- */
 
-/* Parses formulas, and makes what the sequence needs; options, context and origin are set, all else is zero. */
+/* Parses formulas, and makes what the sequence needs, once; options and context are set, all else is zero. */
 int cgt_figure_open(cgt_figure *figure);
 
 /* How many frames must be looked at before the first picture: `most`, if those of the run; the first, which tells the
@@ -172,11 +171,7 @@ int cgt_figure_is_decided(const cgt_figure *figure);
 /* What the automatic camera asks of the survey, before the kind of the data is known: figure->fit, or NULL. */
 const camera_directions *cgt_figure_begin_fit(cgt_figure *figure);
 
-/* An origin for a camera that was given and looks at something far off, before the survey; one for a run that lies far
- * off, after it. Both return 1 where figure->origin has changed, else 0. Then the cameras of the options are moved by
- * the origin, and up and view chosen. */
-int cgt_figure_choose_camera_origin(cgt_figure *figure);
-int cgt_figure_choose_bulk_origin(cgt_figure *figure);
+/* Moves the cameras of the options by the origin, and chooses up and view. */
 int cgt_figure_move_cameras(cgt_figure *figure);
 
 /* After that, in this order: what the colours show and their range; the camera. */

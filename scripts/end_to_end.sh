@@ -114,12 +114,12 @@ one_round() {
     for input in "$@"; do
         name=${input%%=*} file=${input#*=}
         frames=$(grep -c '^ITEM: TIMESTEP' "$file")
-        road "$name: text to png" "$frames" "$bin/cgt-render" -q --style plain -o "$work/out/%05d.png" "$file"
-        road "$name: text to png, the default style" "$frames" "$bin/cgt-render" -q -o "$work/out/%05d.png" "$file"
-        road "$name: text to png, camera given, by type" "$frames" "$bin/cgt-render" -q --style plain -k type -c "$camera" \
+        road "$name: text to png" "$frames" "$bin/cgt-render" -q -a 1 --style plain -o "$work/out/%05d.png" "$file"
+        road "$name: text to png, the default style" "$frames" "$bin/cgt-render" -q -a 1 -o "$work/out/%05d.png" "$file"
+        road "$name: text to png, camera given, by type" "$frames" "$bin/cgt-render" -q -a 1 --style plain -k type -c "$camera" \
             -o "$work/out/%05d.png" "$file"
         if command -v ffmpeg >/dev/null; then
-            road "$name: text to mp4" "$frames" "$bin/cgt-render" -q --style plain -o "$work/out/run.mp4" "$file"
+            road "$name: text to mp4" "$frames" "$bin/cgt-render" -q -a 1 --style plain -o "$work/out/run.mp4" "$file"
         fi
         [[ " $peers " != *" lammps "* ]] || ! command -v lmp >/dev/null || {
             lammps_input "$file"

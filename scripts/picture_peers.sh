@@ -71,11 +71,11 @@ cpu() {
     end=$(awk '{ printf "%d", 1000 * ($1 + $2) }' <<<"$begin")
     if [ -z "${least[$name]:-}" ] || [ "$end" -lt "${least[$name]}" ]; then least[$name]=$end; fi
 }
-common=(-q -c "$camera" -k 5090d0 frame.lammpstrj -t 1)
+common=(-a 1 -q -c "$camera" -k 5090d0 frame.lammpstrj -t 1)
 for ((turn = 0; turn < turns; turn++)); do
     cpu 'cgt-render plain' "$render" "${common[@]}" --style plain -o plain.png
     cpu 'cgt-render shadows' "$render" "${common[@]}" --ambient 0 -o shadows.png
-    cpu 'cgt-render soft, 16 samples' "$render" "${common[@]}" -o soft.png
+    cpu 'cgt-render soft, 16 samples' "$render" "${common[@]}" --ambient 16 -o soft.png
     cpu 'Tachyon shadows' tachyon scene.dat -numthreads 1 -fullshade -format PPM -o tachyon_shadows.ppm
     cpu 'Tachyon occlusion, 16 samples' tachyon scene.dat -numthreads 1 -fullshade -add_skylight 0.6 -skylight_samples 16 -format PPM -o tachyon_soft.ppm
     cpu 'POV-Ray shadows' povray +Iscene.pov +Opovray.png +W$width +H$height -D -A +WT1

@@ -92,6 +92,13 @@ void cgt_figure_options_axes(figure_options *o, cgt_trajectory_kind kind)
 
 /* ---- All of them ---------------------------------------------------------------------------------------------- */
 
+/* Whether a picture may have so many rays along each edge of a pixel. */
+static int may_have(const figure_options *o, uint32_t samples)
+{
+    return (uint64_t)o->width * o->height * samples * samples <= FIGURE_MAX_PIXELS &&
+           o->width <= FIGURE_MAX_EDGE / samples && o->height <= FIGURE_MAX_EDGE / samples;
+}
+
 int cgt_figure_options_finish(figure_options *o, char *error, size_t size)
 {
     o->floor.is_set |= o->floor.axis || o->floor.has_height || o->floor.has_place;
@@ -102,8 +109,9 @@ int cgt_figure_options_finish(figure_options *o, char *error, size_t size)
         return cgt_refuse(error, size, "--log-scale: the range must be above 0");
     if (o->keys.count && o->orbit != 0.0f)
         return cgt_refuse(error, size, "--camera-keys and --orbit exclude each other");
-    if ((uint64_t)o->width * o->height * o->samples * o->samples > FIGURE_MAX_PIXELS ||
-        o->width > FIGURE_MAX_EDGE / o->samples || o->height > FIGURE_MAX_EDGE / o->samples)
+    if (!o->samples)
+        o->samples = may_have(o, 2) ? 2 : 1;
+    if (!may_have(o, o->samples))
         return cgt_refuse(error, size, "%ux%u pixels of %ux%u rays: at most %d an edge and %llu in all", o->width,
                           o->height, o->samples, o->samples, FIGURE_MAX_EDGE, (unsigned long long)FIGURE_MAX_PIXELS);
     if (o->has_camera && (o->has_view || o->has_up || o->has_fov || o->zoom > 0.0f))
@@ -124,7 +132,6 @@ void cgt_figure_options_init(figure_options *o)
     cgt_camera_init(&o->camera.camera);
     o->width = 1280;
     o->height = 720;
-    o->samples = 1;
     o->fov = 30.0f;
     memcpy(o->plain, cgt_style_mesh_color, sizeof o->plain);
 

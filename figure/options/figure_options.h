@@ -145,7 +145,7 @@ enum { FIGURE_MAX_EDGE = 65536 };
 
 typedef struct figure_options {
     uint32_t width, height;
-    uint32_t samples; /* 1, 2, 4: edge of the block of rays per pixel */
+    uint32_t samples; /* 1, 2, 4: edge of the block of rays per pixel; 0 until finished: automatic */
     int has_camera;
     camera_key camera;         /* where has_camera */
     float zoom;                /* of the automatic camera; 0: not given */

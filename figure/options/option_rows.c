@@ -19,7 +19,7 @@
 const option_row cgt_figure_rows[] = {
     {.help = "Pictures:", .group = 1},
     {"size", 's', "WxH", "Pixels; default 1280x720", WHOLE(cgt_parse_size)},
-    {"antialias", 'a', "N", "Trace NxN rays for each pixel: 1 (default), 2 or 4", PARSED(samples, cgt_parse_samples)},
+    {"antialias", 'a', "N", "Trace NxN rays for each pixel: 1, 2 (default) or 4", PARSED(samples, cgt_parse_samples)},
     {.help = "Camera:", .group = 2},
     {"camera", 'c', "EX,EY,EZ,TX,TY,TZ,UX,UY,UZ,FOV",
      "Eye, target, up, vertical angle in degrees; default: shows the whole scene in all frames",

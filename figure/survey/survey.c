@@ -29,6 +29,20 @@ static void reach_point(survey *s, const camera_directions *fit, const float p[3
 
 enum { BLOCK = 256 };
 
+/* Tells which of the spheres [first, first + count), a block at most, are shown; returns `shown`, or NULL: all are. Of
+ * what is left out neither camera nor colours know. */
+static const uint8_t *find_shown(const frame_sequence *sequence, uint32_t first, uint32_t count, uint8_t *shown)
+{
+    const expression *const show = sequence->rules ? sequence->rules->show : NULL;
+    double values[BLOCK];
+    if (!show || sequence->frame.kind == CGT_TRAJECTORY_TRIANGLES)
+        return NULL;
+    cgt_expression_values(show, first, count, values);
+    for (uint32_t i = 0; i < count; i++)
+        shown[i] = values[i] != 0.0 && !isnan(values[i]);
+    return shown;
+}
+
 /* Whether a sphere within the bounds may reach farther than all before: each sum below is rounded as that of
  * cgt_camera_reach_add, of terms that are at least as large. */
 static int may_reach_farther(const camera_reach *reach, const camera_directions *fit, const float min[3],
@@ -46,7 +60,7 @@ static int may_reach_farther(const camera_reach *reach, const camera_directions 
 
 /* The spheres [first, first + count), a block at most. */
 static void survey_block(survey *s, const frame_sequence *sequence, const camera_directions *fit, uint32_t first,
-                         uint32_t count)
+                         uint32_t count, const uint8_t *shown)
 {
     static const particle_rules as_it_is = {.radius_scale = 1.0f};
     const cgt_trajectory_frame *const f = &sequence->frame;
@@ -59,7 +73,7 @@ static void survey_block(survey *s, const frame_sequence *sequence, const camera
     cgt_particle_radii(sequence->rules ? sequence->rules : &as_it_is, f, first, count, radius);
     for (uint32_t k = 0; k < count; k++) {
         const float *const sphere = f->xyzr + 4 * (size_t)(first + k);
-        is_drawable[k] = finite_point(sphere) && isfinite(radius[k]) && radius[k] >= 0.0f;
+        is_drawable[k] = (!shown || shown[k]) && finite_point(sphere) && isfinite(radius[k]) && radius[k] >= 0.0f;
         if (!is_drawable[k])
             continue;
         s->drawable++;
@@ -101,36 +115,40 @@ static void survey_triangle(survey *s, const cgt_trajectory_frame *frame, const 
     cgt_bulk_add(&s->bulk, frame->number, i, i, centre, reach);
 }
 
-static void survey_names(survey *s, const cgt_trajectory_frame *frame, uint32_t i)
+/* Types are those of all spheres, so that a filter does not choose other colours; numbers those that are shown. */
+static void survey_names(survey *s, const cgt_trajectory_frame *frame, uint32_t i, int is_shown)
 {
     const uint32_t id = frame->id ? frame->id[i] : i;
-    s->id_min = id < s->id_min ? id : s->id_min;
-    s->id_max = id > s->id_max ? id : s->id_max;
+    s->hidden += !is_shown;
+    if (is_shown) {
+        s->id_min = id < s->id_min ? id : s->id_min;
+        s->id_max = id > s->id_max ? id : s->id_max;
+    }
     if (!frame->type)
         return;
     s->type_min = frame->type[i] < s->type_min ? frame->type[i] : s->type_min;
     s->type_max = frame->type[i] > s->type_max ? frame->type[i] : s->type_max;
 }
 
-/* The range of the first formula, which is that of the colours, over the primitives [first, end). */
-static void survey_values(survey *s, const frame_sequence *sequence, uint32_t first, uint32_t end)
+/* The range of the first formula, which is that of the colours, over a block of the spheres or vertices. */
+static void survey_values(survey *s, const frame_sequence *sequence, uint32_t first, uint32_t count,
+                          const uint8_t *shown)
 {
     double values[BLOCK];
-    for (; first < end; first += BLOCK) {
-        const uint32_t block = end - first < BLOCK ? end - first : BLOCK;
-        cgt_expression_values(sequence->formulas[0], first, block, values);
-        for (uint32_t i = 0; i < block; i++) {
-            if (!isfinite(values[i])) {
-                s->unknown_values++;
-                continue;
-            }
-            s->values++;
-            cgt_bulk_values_add(&s->value_samples, sequence->frame.number, first + i, values[i]);
-            s->value_min = fmin(s->value_min, values[i]);
-            s->value_max = fmax(s->value_max, values[i]);
-            if (values[i] > 0.0)
-                s->value_least = fmin(s->value_least, values[i]);
+    cgt_expression_values(sequence->formulas[0], first, count, values);
+    for (uint32_t i = 0; i < count; i++) {
+        if (shown && !shown[i])
+            continue;
+        if (!isfinite(values[i])) {
+            s->unknown_values++;
+            continue;
         }
+        s->values++;
+        cgt_bulk_values_add(&s->value_samples, sequence->frame.number, first + i, values[i]);
+        s->value_min = fmin(s->value_min, values[i]);
+        s->value_max = fmax(s->value_max, values[i]);
+        if (values[i] > 0.0)
+            s->value_least = fmin(s->value_least, values[i]);
     }
 }
 
@@ -140,21 +158,6 @@ static void survey_kind(survey *s, const cgt_trajectory_frame *f, uint32_t i)
         s->has_types[f->type[i]] = 1;
     if (f->element)
         s->has_elements[f->element[i]] = 1;
-}
-
-/* The types and elements of the spheres [first, end) that are shown. */
-static void survey_kinds(survey *s, const frame_sequence *sequence, uint32_t first, uint32_t end)
-{
-    const expression *const show = sequence->rules ? sequence->rules->show : NULL;
-    double shown[BLOCK];
-    for (; first < end; first += BLOCK) {
-        const uint32_t block = end - first < BLOCK ? end - first : BLOCK;
-        if (show)
-            cgt_expression_values(show, first, block, shown);
-        for (uint32_t i = 0; i < block; i++)
-            if (!show || (shown[i] != 0.0 && !isnan(shown[i])))
-                survey_kind(s, &sequence->frame, first + i);
-    }
 }
 
 /* The box, and how far its images move what is in it. */
@@ -181,16 +184,34 @@ static void survey_box(survey *s, const frame_sequence *sequence, const camera_d
     }
 }
 
-static void survey_speeds(survey *s, const float *speed, uint32_t first, uint32_t end)
+static void survey_speed(survey *s, float speed)
 {
-    for (uint32_t i = first; i < end; i++) {
-        uint32_t bits;
-        if (!isfinite(speed[i]))
+    uint32_t bits;
+    if (!isfinite(speed))
+        return;
+    memcpy(&bits, &speed, sizeof bits);
+    s->speed_bins[(bits & 0x7FFFFFFFu) >> 19]++;
+    s->speeds++;
+}
+
+/* What the spheres or vertices [first, first + count), a block at most, have. */
+static void survey_columns(survey *s, const frame_sequence *sequence, uint32_t first, uint32_t count,
+                           const uint8_t *shown)
+{
+    const cgt_trajectory_frame *const frame = &sequence->frame;
+    const int wants_kinds = sequence->wants_kinds && frame->kind == CGT_TRAJECTORY_SPHERES;
+    for (uint32_t i = 0; frame->element && !s->has_element && i < count; i++)
+        s->has_element = frame->element[first + i] != 0;
+    for (uint32_t i = 0; (wants_kinds || sequence->speed) && i < count; i++) {
+        if (shown && !shown[i])
             continue;
-        memcpy(&bits, &speed[i], sizeof bits);
-        s->speed_bins[(bits & 0x7FFFFFFFu) >> 19]++;
-        s->speeds++;
+        if (wants_kinds)
+            survey_kind(s, frame, first + i);
+        if (sequence->speed)
+            survey_speed(s, sequence->speed[first + i]);
     }
+    if (sequence->formula_count)
+        survey_values(s, sequence, first, count, shown);
 }
 
 /* Of a survey that is all zero: one takes 500 KB, of which threads without a piece touch little. */
@@ -218,6 +239,7 @@ static void merge(survey *sum, const survey *part)
     sum->is_cut |= part->is_cut;
     sum->kind = part->frames ? part->kind : sum->kind;
     sum->drawable += part->drawable;
+    sum->hidden += part->hidden;
     sum->has_type |= part->has_type;
     sum->id_min = part->id_min < sum->id_min ? part->id_min : sum->id_min;
     sum->id_max = part->id_max > sum->id_max ? part->id_max : sum->id_max;
@@ -285,20 +307,23 @@ static void survey_piece(void *user, uint32_t index)
     const uint32_t last = piece_end(team, primitives, index);
     const uint32_t first = index ? piece_end(team, primitives, index - 1) : 0;
     const camera_directions *const fit = fit_of(team);
-    for (uint32_t i = first; i < last; i++)
-        survey_names(s, frame, i);
-    for (uint32_t i = first; i < last && frame->kind == CGT_TRAJECTORY_TRIANGLES; i++)
-        survey_triangle(s, frame, fit, i);
-    for (uint32_t i = first; i < last && frame->kind != CGT_TRAJECTORY_TRIANGLES; i += BLOCK)
-        survey_block(s, sequence, fit, i, last - i < BLOCK ? last - i : BLOCK);
-    for (uint32_t i = begin; frame->element && !s->has_element && i < end; i++)
-        s->has_element = frame->element[i] != 0;
-    if (sequence->wants_kinds && frame->kind == CGT_TRAJECTORY_SPHERES)
-        survey_kinds(s, sequence, begin, end);
-    if (sequence->formula_count)
-        survey_values(s, sequence, begin, end);
-    if (sequence->speed)
-        survey_speeds(s, sequence->speed, begin, end);
+    uint8_t mask[BLOCK];
+    if (frame->kind == CGT_TRAJECTORY_TRIANGLES) {
+        for (uint32_t i = first; i < last; i++) {
+            survey_names(s, frame, i, 1);
+            survey_triangle(s, frame, fit, i);
+        }
+    }
+    for (uint32_t i = begin; i < end; i += BLOCK) {
+        const uint32_t count = end - i < BLOCK ? end - i : BLOCK;
+        const uint8_t *const shown = find_shown(sequence, i, count, mask);
+        survey_columns(s, sequence, i, count, shown);
+        if (frame->kind == CGT_TRAJECTORY_TRIANGLES)
+            continue;
+        for (uint32_t k = 0; k < count; k++)
+            survey_names(s, frame, i + k, !shown || shown[k]);
+        survey_block(s, sequence, fit, i, count, shown);
+    }
 }
 
 void cgt_survey_look(survey_team *team)

@@ -20,7 +20,8 @@ typedef struct survey {
     int has_total;
     int is_cut;               /* the file goes on after them, with an error */
     cgt_trajectory_kind kind; /* of the file, where frames is above 0 */
-    uint64_t drawable;        /* valid spheres or triangles in all of them: finite, no negative radius */
+    uint64_t hidden;          /* spheres that options leave out; nothing below is theirs but types and has_element */
+    uint64_t drawable;        /* valid spheres or triangles that are shown: finite, no negative radius */
     float bounds_min[3];      /* of those; min above max where there are none */
     float bounds_max[3];
     bulk bulk;               /* of their places */

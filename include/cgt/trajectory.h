@@ -29,7 +29,8 @@
  *   vasp           POSCAR, CONTCAR, XDATCAR: elements, cell, positions in fractions or lengths
  *   vtk            legacy VTK points: POLYDATA, UNSTRUCTURED_GRID; triangles where all cells are faces; one frame a
  *                  file
- *   psf, prmtop    topologies alone: names, charges, masses, bonds
+ *   psf, prmtop,   topologies alone: names, charges, masses, bonds; of .top also from the files that it includes,
+ *   top            beside it, in GMXLIB and where GROMACS has its force fields
  *   frames         the project's own binary, below; triangles, too
  *
  * Meshes are .obj, .ply, .gltf, .dae, .x, .ifc and whatever else assimp reads: all meshes of the file as one, moved by

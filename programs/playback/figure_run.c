@@ -12,13 +12,11 @@
 #include "options/option_row.h"
 #include "trajectory/trajectory_status.h"
 
-cgt_result figure_run_set(cgt_figure *figure, const char *first, const char *settings)
+cgt_result figure_run_set(cgt_figure *figure, const char *settings)
 {
-    char *const text = malloc(strlen(first) + strlen(settings) + 1), name[64];
-    size_t used = strlen(first);
+    char *const text = calloc(strlen(settings) + 1, 1), name[64];
+    size_t used = 0;
     cgt_result result = CGT_ERROR_OUT_OF_MEMORY;
-    if (text)
-        memcpy(text, first, used + 1);
     for (const char *line = settings; text && *line;) {
         const size_t length = strcspn(line, "\n") + 1;
         snprintf(name, sizeof name, "%.*s", (int)strcspn(line, " \n"), line);

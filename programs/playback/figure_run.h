@@ -8,11 +8,10 @@
 
 #include <cgt/figure.h>
 
-#include "playback/survey_run.h"
+#include "playback/survey_walk.h"
 
-/* Sets the options of lines, as cgt_figure_set_lines, but leaves out those that are not the figure's. first: lines before
- * them. */
-cgt_result figure_run_set(cgt_figure *figure, const char *first, const char *settings);
+/* Sets the options of lines, as cgt_figure_set_lines, but leaves out those that are not the figure's. */
+cgt_result figure_run_set(cgt_figure *figure, const char *settings);
 
 /* Has all columns of the file read, at its first frame, which becomes that of the sequence. Returns 1, 0 where there is
  * no frame, or -1 with a text. */

@@ -12,7 +12,7 @@
 
 #include "common/stop_flag.h"
 #include "picture/overlay/contact_sheet.h"
-#include "playback/survey_run.h"
+#include "playback/figure_run.h"
 #include "common/program.h"
 #include "picture/files/image_write.h"
 #include "figure_state.h"
@@ -27,8 +27,8 @@ typedef struct renderer {
     render_options options; /* as they were given; those that count are figure.options */
     const stop_flag *stop;  /* not 0: a signal has come */
     frame_source source;    /* the reader's, once it has started */
-    cgt_trajectory *mesh;   /* --mesh; NULL: none */
-    cgt_figure figure;      /* its sequence is the reader's, once it has started */
+    cgt_figure *figure;     /* its sequence is the reader's, once it has started */
+    survey_walk survey;     /* what is known of the input */
     uint64_t begin, count;  /* of the chosen frames: the first one of this run, how many; count UINT64_MAX: unknown */
     png_text texts[4];      /* what pictures say of themselves */
     size_t text_count;

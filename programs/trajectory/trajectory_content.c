@@ -101,6 +101,23 @@ static int ends_with(text_span line, const char *word)
     return text_length(line) >= length && memcmp(line.end - length, word, length) == 0;
 }
 
+/* Comments and "#include", then "[ moleculetype ]" or another section. */
+static int is_gromacs_topology(const content *c)
+{
+    int includes = 0;
+    for (size_t i = 0; i < c->lines; i++) {
+        text_span line = c->line[i], word;
+        text_trim(&line);
+        if (text_begins(line, "[") && memchr(line.begin, ']', text_length(line)) != NULL)
+            return 1;
+        includes |= text_begins(line, "#include");
+        if (!text_word(&line, &word) || *word.begin == ';' || *word.begin == '#')
+            continue;
+        return 0;
+    }
+    return includes;
+}
+
 static const trajectory_format *find_shape(const content *c)
 {
     const text_span *const line = c->line;
@@ -120,7 +137,7 @@ static const trajectory_format *find_shape(const content *c)
     for (size_t i = 1; i < c->lines; i++)
         if (count_numbers(line[i], 0) == 1 && ends_with(line[i], " atoms"))
             return &trajectory_format_lammps_data;
-    return NULL;
+    return is_gromacs_topology(c) ? &trajectory_format_top : NULL;
 }
 
 const trajectory_format *trajectory_find_content(const char *bytes, size_t size)

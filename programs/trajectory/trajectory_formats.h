@@ -25,6 +25,7 @@
     NEXT(vtk, "vtk", "", ".vtk", "")                                                                                   \
     NEXT(psf, "psf", "", ".psf", "")                                                                                   \
     NEXT(prmtop, "prmtop", "parm7", ".prmtop", ".parm7")                                                               \
+    NEXT(top, "top", "", ".top", ".itp")                                                                               \
     NEXT(frames, "frames", "", ".frames", "")
 
 /* For help and messages: "lammps, lammps-binary, ..." and ".lammpstrj, .dump, ...". */

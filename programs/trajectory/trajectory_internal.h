@@ -57,8 +57,12 @@ typedef enum trajectory_doubt {
     DOUBT_POINTS,        /* spheres of radius 0 */
     DOUBT_SHAPES,        /* shapes that are drawn as others, or not at all */
     DOUBT_LOST,          /* .cif: atoms without coordinates */
+    DOUBT_NO_IDS,        /* .cif: atoms without a number */
+    DOUBT_INCLUDES,      /* .top: files that were not found */
     DOUBTS
 } trajectory_doubt;
+
+#define TRAJECTORY_WIDE_IDS "ids above 4294967295 are kept modulo 4294967296"
 
 /* A reader: what differs from file to file. The readers of spheres are listed in trajectory_formats.h. A function
  * returns 1 done, 0 end of the file, -1 error through trajectory_fail; what is not set is as the comment says. */

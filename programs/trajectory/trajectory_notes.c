@@ -4,6 +4,7 @@
  * What readers say: errors, which end the reading, and warnings, which tell how a doubtful file was read. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_internal.h"
+#include "trajectory/trajectory_topology.h"
 
 #include <inttypes.h>
 #include <stdarg.h>
@@ -83,7 +84,7 @@ const char *cgt_trajectory_take_warning(cgt_trajectory *t)
             return t->warning[doubt];
         }
     }
-    return NULL;
+    return t != NULL && t->topology != NULL ? cgt_trajectory_take_warning(t->topology->file) : NULL;
 }
 
 size_t cgt_trajectory_get_error_message(const cgt_trajectory *t, char *text, size_t size)

@@ -130,8 +130,8 @@ view_draw *view_draw_open(const view_options *options)
     }
     d->options = options->render;
     if (render_create_context(&d->options, &d->context) == 0 && cgt_figure_create(d->context, &d->figure) == CGT_OK &&
-        view_draw_tell(d, figure_run_set(d->figure, "antialias = 2\n", d->options.settings)) == 0 &&
-        open_input(d) == 0 && survey_input(d) == 0 && view_draw_tell(d, cgt_figure_begin_keep(d->figure, &lead)) == 0 &&
+        view_draw_tell(d, figure_run_set(d->figure, d->options.settings)) == 0 && open_input(d) == 0 &&
+        survey_input(d) == 0 && view_draw_tell(d, cgt_figure_begin_keep(d->figure, &lead)) == 0 &&
         (d->shows = view_draw_get(d, cgt_figure_get, "show")) != NULL)
         return d;
     view_draw_close(d);

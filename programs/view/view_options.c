@@ -146,7 +146,6 @@ void view_options_parse(view_options *o, int argc, char **argv)
     char error[PROGRAM_ERROR_SIZE];
     memset(o, 0, sizeof *o);
     render_options_init(&o->render);
-    o->render.figure.samples = 2;
     o->render.output.survey = VIEW_SURVEY_AUTO;
     o->budget = 1e3f / 60.0f;
     o->pictures = "view_%04d.png";

@@ -285,22 +285,19 @@ EMSCRIPTEN_KEEPALIVE int web_resize(uint32_t width, uint32_t height)
 
 EMSCRIPTEN_KEEPALIVE uint8_t *web_pixels(void) { return web.pixels; }
 
-/* Draws the frame by the hand's camera. Returns 1 where web_grow has more to draw, 0 where it is complete, or -1. */
+/* Draws the frame by the hand's camera, as fast as it goes. */
 EMSCRIPTEN_KEEPALIVE int web_draw(void)
 {
     const cgt_image image = {.bytes = web.pixels, .channels = 4};
-    char style[16];
     if (!web.shown)
         return fail("no file is open");
-    if (check(cgt_figure_set_camera(web.figure, &web.camera)) ||
-        check(cgt_figure_draw_quick(web.figure, CGT_FIGURE_PLAIN, 1, &image)))
-        return -1;
-    cgt_figure_get(web.figure, "style", style, sizeof style);
-    const size_t both = strlen("size = \nstyle = plain\n") + cgt_figure_get(web.figure, "size", NULL, 0) - 1;
-    return strcmp(style, "plain\n") != 0 || cgt_figure_get(web.figure, NULL, NULL, 0) > both;
+    return check(cgt_figure_set_camera(web.figure, &web.camera)) ||
+                   check(cgt_figure_draw_quick(web.figure, CGT_FIGURE_PLAIN, 1, &image))
+               ? -1
+               : 0;
 }
 
-/* Adds a step of soft light to the picture; begins: the first. Returns how many are left, or -1. */
+/* Makes the picture of the options, then adds a step of soft light to it; begins: the first. Returns how many are left, or -1. */
 EMSCRIPTEN_KEEPALIVE int web_grow(int begins)
 {
     const cgt_image image = {.bytes = web.pixels, .channels = 4};

@@ -69,12 +69,11 @@
                 outdated = true;
             }
             if (outdated) {
-                const more = cgt._web_draw();
-                if (more < 0)
+                if (cgt._web_draw() < 0)
                     return fail();
                 outdated = false;
                 moved = now;
-                left = more ? -1 : 0; // not begun
+                left = -1; // not begun
                 begins = true;
                 show(performance.now() - now);
             } else if (left !== 0 && !playing) {

@@ -469,10 +469,10 @@ static void draw_shown(cgt_figure *figure, uint8_t rgb[BYTES])
 TEST(options_change_what_is_shown)
 {
     static const char *const options[][2] = {
-        {"color", "heat"},  {"bonds", "1.2"},      {"show", "heat > 2"}, {"style", "paper"},
-        {"antialias", "2"}, {"background", "red"}, {"floor", NULL},      {"bounces", "2"},
-        {"view", "top"},    {"zoom", "3"},         {"images", "1,1,1"},  {"light", "1,0,0"},
-        {"color", "id"},    {"color", "height"},   {"orbit", "20"},      {"range", "symmetric"}};
+        {"color", "heat"},  {"bonds", "1.2"},      {"head", "0.5"},     {"style", "paper"},
+        {"antialias", "4"}, {"background", "red"}, {"floor", NULL},     {"bounces", "2"},
+        {"view", "top"},    {"zoom", "3"},         {"images", "1,1,1"}, {"light", "1,0,0"},
+        {"color", "id"},    {"color", "height"},   {"orbit", "20"},     {"range", "symmetric"}};
     static const char *const wrong[][3] = {{"color", "cold", "has no column \"cold\""},
                                            {"show", "cold > 2", "has no column \"cold\""},
                                            {"box", NULL, "has no box"},
@@ -583,6 +583,7 @@ TEST(what_was_chosen_makes_the_picture)
     assert_int_equal(cgt_figure_set(figure, "up", "y"), CGT_OK);
     assert_int_equal(cgt_figure_set(figure, "color", "height"), CGT_OK);
     assert_int_equal(cgt_figure_set(figure, "floor", "teal"), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "show", "heat > 2"), CGT_OK);
     assert_int_equal(cgt_figure_show_frame(figure, frame), CGT_OK);
     assert_int_equal(cgt_figure_get_up(figure, up), CGT_OK);
     assert_true(up[0] == 0.0f && up[1] == 1.0f && up[2] == 0.0f);
@@ -590,6 +591,7 @@ TEST(what_was_chosen_makes_the_picture)
     assert_int_equal(cgt_figure_fit(figure), CGT_OK);
     assert_int_equal(cgt_figure_get_camera(figure, &fitted), CGT_OK);
     assert_true(fitted.fov == camera.fov && fitted.eye[0] != camera.eye[0]);
+    assert_int_equal(cgt_figure_set(figure, "show", "heat < 6"), CGT_OK);
     draw_shown(figure, hand);
     const size_t length = cgt_figure_get_chosen(figure, NULL, text, sizeof text);
     assert_int_equal(length, strlen(text));
@@ -663,6 +665,7 @@ TEST(steps_make_the_whole_picture)
     assert_int_equal(cgt_figure_step(figure, 1, &left), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(cgt_figure_read(figure, &image), CGT_ERROR_INVALID_ARGUMENT);
     expect_message(figure, "no picture has begun");
+    assert_int_equal(cgt_figure_set(figure, "antialias", "1"), CGT_OK);
     assert_int_equal(cgt_figure_set(figure, "light-size", "5"), CGT_OK);
     draw(figure, &data, whole);
     assert_int_equal(cgt_figure_begin(figure), CGT_OK);
@@ -689,6 +692,7 @@ TEST(quick_pictures_are_plain)
     const cgt_figure_data data = grains();
     static uint8_t whole[BYTES], quick[BYTES], four[4 * WIDTH * HEIGHT];
     const cgt_image image = {.bytes = quick}, wide = {.bytes = four, .channels = 4}, none = {.channels = 3};
+    assert_int_equal(cgt_figure_set(figure, "antialias", "1"), CGT_OK);
     assert_int_equal(cgt_figure_set(figure, "style", "plain"), CGT_OK);
     draw(figure, &data, whole);
     cgt_figure_set_stop(figure, always, NULL);

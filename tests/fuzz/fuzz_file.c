@@ -18,7 +18,7 @@
 
 /* ---- scratch files: the input, and the frames that were read, written as .frames ---- */
 
-#define MOST_PATHS 16
+#define MOST_PATHS 24
 typedef struct scratch {
     char folder[512];
     char path[MOST_PATHS][600];
@@ -58,6 +58,13 @@ static void fill(const char *path, const uint8_t *bytes, size_t size)
     FUZZ_CHECK(file && fwrite(bytes, 1, size, file) == size && !fclose(file), "%s: cannot be written", path);
 }
 
+const char *fuzz_scratch(const char *name, const char *ending, const uint8_t *bytes, size_t size)
+{
+    const char *const path = scratch_path(name, ending);
+    fill(path, bytes, size);
+    return path;
+}
+
 /* ---- frames ---- */
 
 /* The numbers of words are those of the table. */
@@ -69,13 +76,14 @@ static void check_column(const cgt_trajectory_column *c, uint32_t count)
                    (double)c->value[i], c->words);
 }
 
-/* Asks for columns of all kinds. */
-static void want_columns(cgt_trajectory *t)
+/* Asks for columns of all kinds. A topology is read anew with them, and may have words that are none. */
+static void want_columns(cgt_trajectory *t, bool has_topology)
 {
     static const char *const names[] = {"x",       "fx",   "q",        "name", "resname", "chain",   "resid",
                                         "element", "type", "b_factor", "c_ke", "vz",      "species", "temperature"};
     char error[ERROR_BYTES] = "";
-    FUZZ_CHECK(!told_want_columns(t, names, sizeof names / sizeof names[0], error, sizeof error), "%s", error);
+    FUZZ_CHECK(!told_want_columns(t, names, sizeof names / sizeof names[0], error, sizeof error) || has_topology, "%s",
+               error);
 }
 
 static void check_frame(const cgt_trajectory_frame *f, uint64_t number, const cgt_trajectory_options *o)
@@ -109,8 +117,11 @@ typedef struct pass {
     char error[ERROR_BYTES];
 } pass;
 
-static void check_error(const char *path, const char *error)
+/* topology: whose errors they may be, too; NULL: none. */
+static void check_error(const char *path, const char *topology, const char *error)
 {
+    if (topology && !strncmp(error, topology, strlen(topology)))
+        path = topology;
     FUZZ_CHECK(!strncmp(error, path, strlen(path)) && error[strlen(path)] == ':', "the error \"%s\" has no path",
                error);
     FUZZ_CHECK(strlen(error) > strlen(path) + 2, "the error \"%s\" says nothing", error);
@@ -126,7 +137,7 @@ static void check_end(cgt_trajectory *t, const char *path, const pass *p)
     FUZZ_CHECK(told_read(t, &frame, error, sizeof error) == p->end, "%s: a frame after the end", path);
     if (p->end == 0)
         return;
-    check_error(path, p->error);
+    check_error(path, NULL, p->error);
     FUZZ_CHECK(!strcmp(p->error, error), "\"%s\", then \"%s\"", p->error, error);
     FUZZ_CHECK(told_skip(t, error, sizeof error) == -1 && !strcmp(p->error, error), "skip goes past an error");
 }
@@ -181,7 +192,7 @@ static void skip_all(cgt_trajectory *t, const char *path, const pass *p)
         return; /* counting all of them may legitimately take very long */
     FUZZ_CHECK(p->end == -1 || got == 0, "skip: %s", error);
     if (got == -1)
-        check_error(path, error);
+        check_error(path, NULL, error);
     rewind_it(t);
     FUZZ_CHECK(told_count_frames(t, &counted, error, sizeof error) == got, "count: %s", error);
     FUZZ_CHECK(got == -1 || counted == frames, "%llu frames counted of %u", (unsigned long long)counted, frames);
@@ -243,17 +254,17 @@ static void read_copy(const char *path, const pass *first)
 void fuzz_file(const char *ending, const uint8_t *bytes, size_t size, const cgt_trajectory_options *options)
 {
     char error[ERROR_BYTES] = "";
-    const char *const path = scratch_path("input", ending), *const copy_path = scratch_path("copy", ".frames");
+    const char *const path = fuzz_scratch("input", ending, bytes, size);
+    const char *const copy_path = scratch_path("copy", ".frames");
     pass first;
     cgt_trajectory_writer *copy = NULL;
-    fill(path, bytes, size);
     remove(copy_path);
     cgt_trajectory *t = told_open(path, options, error, sizeof error);
     if (!t) {
-        check_error(path, error);
+        check_error(path, options->topology, error);
         return;
     }
-    want_columns(t);
+    want_columns(t, options->topology);
     read_all(t, path, options, &copy, copy_path, &first);
     read_again(t, path, options, &first);
     read_in_parts(t, path, options, &first);

@@ -12,4 +12,7 @@
  * skipping; writes the frames as .frames and reads those. */
 void fuzz_file(const char *ending, const uint8_t *bytes, size_t size, const cgt_trajectory_options *options);
 
+/* Writes the bytes to a file that is there while the process runs, such as a topology; returns its path. */
+const char *fuzz_scratch(const char *name, const char *ending, const uint8_t *bytes, size_t size);
+
 #endif

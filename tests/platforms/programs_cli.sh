@@ -44,7 +44,7 @@ if [ "$render" != none ]; then
     cmp -s "$tmp/stdout" "$tmp/pipe.raw" || fail "a pipe differs from the file"
     PATH=$ffmpeg:$PATH WINEPATH="Z:$ffmpeg"
     export PATH WINEPATH
-    run 0 -q -s 32x18 -o movie.mp4 in.xyz
+    run 0 -q -s 32x18 -a 1 -o movie.mp4 in.xyz
     sum movie.mp4 1166407834 864
     says err '^cgt-render: movie.mp4: ffmpeg: a word from 4[0-9] arguments'
 fi

@@ -517,8 +517,10 @@ static void test_same_bits(void **state)
     const char *const *variants = cgt_get_variant_names();
     for (; *variants; variants++)
         if (test_variant_runs(*variants)) {
-            check_variant(*variants, 1);
-            if (!variants[1]) /* the widest */
+            const bool is_widest = !variants[1];
+            if (!is_widest || !test_samples()) /* emulators are slow: there the widest one runs by threads alone */
+                check_variant(*variants, 1);
+            if (is_widest)
                 check_variant(*variants, 3);
         }
 }

@@ -32,7 +32,7 @@ function constants(file, text,    at, found, gap) {
     gsub(/\/\*([^*]|\*+[^*\/])*\*+\//, " ", text)
     gsub(/[ \n]\/\/[^\n]*/, " ", text)
     gsub(/\047(\\.|[^\\\047])\047/, "0", text)
-    gsub(/#include[^\n]*/, " ", text)
+    gsub(/\n#include[^\n]*/, "\n", text)
     while (match(text, /"([^"\\]|\\.)*"/)) {
         gap = substr(text, 1, RSTART - 1)
         if (at && gap !~ /^[ \n]*((PRI[a-zA-Z0-9]*|INPUT_BLOWN_UP|TRAJECTORY_[A-Z]*)[ \n]*)?$/) {

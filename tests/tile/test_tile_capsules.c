@@ -113,8 +113,9 @@ static const struct {
 /* mixture: 1 spheres, of which some are balls at ends; 2 triangles. */
 static void fill_scene(capsule_scene *s, test_random *r, place_capsule *place, uint32_t mixture, float scale)
 {
-    s->capsules = 1 + random_below(r, MOST);
-    s->spheres = mixture & 1 ? 1 + random_below(r, MOST) : 0;
+    const uint32_t most = test_samples() ? MOST / 4 : MOST; /* emulators are slow */
+    s->capsules = 1 + random_below(r, most);
+    s->spheres = mixture & 1 ? 1 + random_below(r, most) : 0;
     s->triangles = mixture & 2 ? 1 + random_below(r, 100) : 0;
     s->scale = scale;
     for (uint32_t i = 0; i < s->capsules; i++)
@@ -189,7 +190,7 @@ TEST(frames_of_every_kind)
     for (uint32_t kind = 0; kind < TEST_COUNT(kinds); kind++) {
         test_random r = random_make(900 + kind);
         frames_tally tally = {0};
-        for (uint32_t round = 0; round < 4 + test_scaled(44); round++) {
+        for (uint32_t round = 0; round < 3 + test_scaled(21); round++) {
             fill_scene(&s, &r, kinds[kind].place, round % 4, scale[random_below(&r, TEST_COUNT(scale))]);
             dual_scene b = commit_scene(&s, round % 3 ? 0 : random_float(&r, 0.5f, 16));
             for (uint32_t i = 0; i < 3; i++) {
@@ -203,7 +204,8 @@ TEST(frames_of_every_kind)
             dual_scene_free(&b);
         }
         print_tally(kinds[kind].name, &tally);
-        assert_true(tally.served > tally.frames / 4 && tally.parallel > 0 && tally.counts.hits > 0);
+        assert_true(tally.served > tally.frames / 4 && tally.counts.hits > 0);
+        assert_true(tally.parallel > 0 || test_samples());
     }
 }
 
@@ -238,7 +240,7 @@ TEST(windows_hold_capsules)
     static tile t;
     test_random r = random_make(930);
     uint64_t seen = 0, small = 0;
-    for (uint32_t round = 0; round < 10 + test_scaled(60); round++) {
+    for (uint32_t round = 0; round < 4 + test_scaled(36); round++) {
         fill_scene(&s, &r, round % 2 ? place_any : place_bond, 0, 1);
         dual_scene b = commit_scene(&s, 0);
         const cgt_committed_scene *w = &b.loose->committed_scene;

@@ -36,9 +36,7 @@ int cif_number(text_span text, double *value)
 
 static int has(const char *tag, const char *part) { return strstr(tag, part) != NULL; }
 
-/* Whether a tag names a group, in whatever notation: _symmetry_space_group_name_Hall, _space_group_name_H-M_ref,
- * _space_group_magn.name_BNS, _space_group.IT_number. */
-static int names_group(const char *tag)
+int cif_crystal_names_group(const char *tag)
 {
     const int is_group = strncmp(tag, "_space_group_", 13) == 0 && !has(tag, "symop") && !has(tag, "transform");
     return (is_group || strncmp(tag, "_symmetry_", 10) == 0) &&
@@ -54,7 +52,7 @@ static int gives_operations(const char *tag)
 
 void cif_crystal_note(cif_crystal *c, const char *tag)
 {
-    if (c->unread[0] == '\0' && (names_group(tag) || gives_operations(tag)))
+    if (c->unread[0] == '\0' && (cif_crystal_names_group(tag) || gives_operations(tag)))
         snprintf(c->unread, sizeof c->unread, "%s", tag);
 }
 
@@ -68,7 +66,7 @@ void cif_crystal_take(cif_crystal *c, const char *tag, text_span value)
         if (strcmp(tag, numbers[i]) == 0 && !cif_number(value, number))
             *number = NAN;
     }
-    if (names_group(tag)) {
+    if (cif_crystal_names_group(tag)) {
         char *const to = has(tag, "hall") ? c->hall : has(tag, "number") ? c->number : c->group;
         c->is_magnetic |= has(tag, "magn");
         if (*to == '\0')

@@ -44,6 +44,10 @@ const char *cif_crystal_add_operation(cif_crystal *c, text_span text);
 const char *cif_crystal_add_centring(cif_crystal *c, text_span text);
 const char *cif_crystal_center(cif_crystal *c);
 
+/* Whether a tag names a group, in whatever notation: _symmetry_space_group_name_Hall, _space_group_name_H-M_ref,
+ * _space_group_magn.name_BNS, _space_group.IT_number. */
+int cif_crystal_names_group(const char *tag);
+
 /* Notes a tag of a loop that is not read. */
 void cif_crystal_note(cif_crystal *c, const char *tag);
 

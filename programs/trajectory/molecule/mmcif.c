@@ -28,6 +28,15 @@ static const struct {
                           {"occupancy", CGT_TRAJECTORY_NUMBER}, {"b_factor", CGT_TRAJECTORY_NUMBER},
                           {"altloc", CGT_TRAJECTORY_WORD}};
 
+enum { GROUP_TAGS = 8 };
+
+/* Tags of a loop that name its row's space group. */
+typedef struct cif_group_tags {
+    uint32_t count, rows;
+    uint32_t at[GROUP_TAGS]; /* in the loop */
+    char tag[GROUP_TAGS][CIF_TAG_SIZE];
+} cif_group_tags;
+
 typedef struct cif_atom {
     char value[CIF_ROLES][WORD]; /* "" for those without */
 } cif_atom;
@@ -35,13 +44,15 @@ typedef struct cif_atom {
 typedef struct mmcif_state {
     cif_tokens tokens;
     name_table names;
-    int rows;        /* of the loop, a cif_rows */
-    int is_single;   /* tags of an atom outside of loops were read */
-    cif_tags tags;   /* of the loop or the single atom */
+    int rows;      /* of the loop, a cif_rows */
+    int is_single; /* tags of an atom outside of loops were read */
+    cif_tags tags; /* of the loop or the single atom */
+    cif_group_tags groups;
     cif_atom atom;   /* the last one read */
     int has_pending; /* it begins the next frame */
     uint32_t count;
-    int has_element, has_id;
+    int has_element;
+    uint32_t numbered; /* atoms that have an id */
     cif_crystal crystal;
     uint32_t partial, lost; /* atoms that are there in part, and those without a place */
     residue_run residues;   /* of the frame */
@@ -63,13 +74,23 @@ static int read_tags(cgt_trajectory *t, text_span *text)
     mmcif_state *const s = t->state;
     char tag[CIF_TAG_SIZE];
     int kind;
-    s->tags.count = 0;
+    cif_group_tags *const g = &s->groups;
+    s->tags.count = g->count = g->rows = 0;
     while ((kind = cif_next(t, &s->tokens, text)) == CIF_TAG) {
         cif_tag_copy(*text, tag);
-        if (cif_tags_add(&s->tags, tag) == CIF_ROLES)
+        const uint32_t at = s->tags.count;
+        if (cif_tags_add(&s->tags, tag) != CIF_ROLES)
+            continue;
+        if (cif_crystal_names_group(tag) && g->count < GROUP_TAGS && at < CIF_MOST_TAGS) {
+            g->at[g->count] = at;
+            memcpy(g->tag[g->count++], tag, CIF_TAG_SIZE);
+        } else {
             cif_crystal_note(&s->crystal, tag);
+        }
     }
     s->rows = kind > 0 ? cif_tags_rows(t, &s->tags) : 0;
+    if (s->rows == CIF_ROWS_OTHER && g->count > 0 && s->tags.count <= CIF_MOST_TAGS)
+        s->rows = CIF_ROWS_OPERATIONS;
     return s->rows < 0 ? -1 : kind;
 }
 
@@ -83,6 +104,17 @@ static int add_operation(cgt_trajectory *t, int role, text_span text)
     const char *const reason = role == CIF_OPERATION ? cif_crystal_add_operation(&s->crystal, text)
                                                      : cif_crystal_add_centring(&s->crystal, text);
     return reason == NULL ? 1 : trajectory_fail(t, t->text.line, "'%s': %s", text_quote(text, quote), reason);
+}
+
+/* Takes value i of a row that names the space group. Of several groups none is known to count. */
+static void take_group_name(mmcif_state *s, uint32_t i, text_span text)
+{
+    const cif_group_tags *const g = &s->groups;
+    for (uint32_t k = 0; k < g->count; k++)
+        if (g->at[k] == i && g->rows > 0)
+            cif_crystal_note(&s->crystal, g->tag[k]);
+        else if (g->at[k] == i)
+            cif_crystal_take(&s->crystal, g->tag[k], text);
 }
 
 /* Reads the values of an atom or an operation, the first of which is there. Returns 1 or -1. */
@@ -106,7 +138,10 @@ static int read_values(cgt_trajectory *t, text_span first)
             return -1;
         if (s->tags.role[i] < CIF_OPERATION && !is_missing)
             copy_word(text, s->atom.value[s->tags.role[i]]);
+        if (!is_missing)
+            take_group_name(s, i, text);
     }
+    s->groups.rows++;
     return 1;
 }
 
@@ -213,9 +248,14 @@ static int store_atom(cgt_trajectory *t)
                              : text_length(symbol) > 0
                                  ? known
                                  : molecule_element(t, name, value_of(s, CIF_RESIDUE), NAME_ANYWHERE);
-    const int has_id = text_u64(value_of(s, CIF_ID), UINT64_MAX, &id);
-    t->store.id[i] = has_id ? (uint32_t)id : (uint32_t)i;
-    s->has_id &= has_id;
+    if (text_u64(value_of(s, CIF_ID), UINT64_MAX, &id)) {
+        if (id > UINT32_MAX)
+            trajectory_warn(t, DOUBT_WIDE_IDS, t->text.line, TRAJECTORY_WIDE_IDS);
+        t->store.id[i] = (uint32_t)id;
+        s->numbered++;
+    } else { /* those of others stay */
+        t->store.id[i] = UINT32_MAX - (uint32_t)i;
+    }
     s->has_element |= element != 0;
     s->count++;
     const char *const letters = element_symbol(element);
@@ -398,7 +438,7 @@ static int mmcif_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
     s->has_element = 0;
     if (!s->has_pending)
         cif_crystal_clear(&s->crystal);
-    s->has_id = 1;
+    s->numbered = 0;
     for (int i = 0; i < CIF_COLUMNS; i++) {
         s->slot[i] = columns_add_named(t, columns[i].name, columns[i].kind);
         if (s->slot[i] < 0)
@@ -415,7 +455,10 @@ static int mmcif_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
     if (finish_cell(t, edge, &has_cell) < 0)
         return -1;
     trajectory_frame_fill(t, frame, s->count);
-    frame->id = s->has_id && !s->tags.is_fractional ? t->store.id : NULL;
+    if (s->numbered > 0 && s->numbered < s->count && !s->tags.is_fractional)
+        trajectory_warn(t, DOUBT_NO_IDS, 0, "%" PRIu32 " of %" PRIu32 " atoms have no number: they get some below 2^32",
+                        s->count - s->numbered, s->count);
+    frame->id = s->numbered > 0 && !s->tags.is_fractional ? t->store.id : NULL;
     frame->type = t->store.type;
     frame->element = s->has_element ? t->store.element : NULL;
     if (has_cell) {

@@ -71,7 +71,7 @@ static int parse_id(cgt_trajectory *t, text_span word, uint32_t *id)
     if (!parse_u64(word, UINT64_MAX, &number))
         return 0;
     if (number > UINT32_MAX)
-        trajectory_warn(t, DOUBT_WIDE_IDS, t->text.line, "ids above 4294967295 are kept modulo 4294967296");
+        trajectory_warn(t, DOUBT_WIDE_IDS, t->text.line, TRAJECTORY_WIDE_IDS);
     *id = (uint32_t)number;
     return 1;
 }
@@ -240,7 +240,7 @@ int row_store_numbers(cgt_trajectory *t, row_plan *plan, size_t i, const double 
         const row_role role = (row_role)plan->role[column];
         take_number(t, plan, role, numbers[column], &r);
         if (role == ROW_ID && numbers[column] > (double)UINT32_MAX)
-            trajectory_warn(t, DOUBT_WIDE_IDS, 0, "ids above 4294967295 are kept modulo 4294967296");
+            trajectory_warn(t, DOUBT_WIDE_IDS, 0, TRAJECTORY_WIDE_IDS);
         if (plan->slot[column] != 0)
             columns_values(t, plan->slot[column])[i] = (float)numbers[column];
     }

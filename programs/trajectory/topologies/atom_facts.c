@@ -55,9 +55,10 @@ int atom_facts_add(cgt_trajectory *t, atom_facts *f, uint32_t i, const atom_fact
         atoms_set_residue(t, &f->residues, i, (text_span){key, key + strlen(key)}, a->residue, a->name);
     const uint32_t by_mass = a->number != 0 ? a->number : a->has_mass ? element_by_mass(a->mass) : 0;
     const int is_massless = a->has_mass && a->mass < SITE_LIGHTEST;
-    const uint32_t element = is_massless || site != 0 ? SITE_MARK
-                             : by_mass != 0           ? by_mass
-                                                      : molecule_element(t, a->name, a->residue, NAME_ANYWHERE);
+    const int is_atom = a->number != 0 || (a->has_mass && a->mass >= 1.0); /* whatever its name is */
+    const uint32_t element = is_massless || (site != 0 && !is_atom) ? SITE_MARK
+                             : by_mass != 0                         ? by_mass
+                                            : molecule_element(t, a->name, a->residue, NAME_ANYWHERE);
     atoms_set_place(t, i, '\0');
     t->store.id[i] = a->id;
     for (int k = 0; k < 3; k++)

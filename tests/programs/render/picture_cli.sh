@@ -121,6 +121,27 @@ same gone followed "--unwrap of a part of a run"
 refuses 1 '--whole: frame 0 has no bonds' --whole flags.lammpstrj
 refuses 2 '--unwrap and --whole exclude each other' --unwrap --whole bonds.data
 
+draw usual row.xyz
+draw four_rays -a 2 row.xyz
+same usual four_rays "-a 2 is not the default"
+# Camera, ranges and legend know nothing of what is left out: as of a run without it.
+run_of() { # run_of COUNT: spheres 1 to COUNT of a run of two frames
+    for frame in 0 1; do
+        awk -v count="$1" -v frame=$frame 'BEGIN {
+            print "ITEM: TIMESTEP\n" frame "\nITEM: NUMBER OF ATOMS\n" count
+            print "ITEM: BOX BOUNDS pp pp pp\n0 99\n0 99\n0 99\nITEM: ATOMS id type x y z q vx vy vz"
+            for (i = 1; i <= count; i++)
+                print i, i % 5, i * 7 % 13 + frame, i % 7, i * i % 11, i * i, i + frame, 0, 0 }'
+    done
+}
+run_of 400 >"$tmp/crowd.lammpstrj"
+run_of 20 >"$tmp/some.lammpstrj"
+for colors in 'id' 'q' 'speed' 'height' 'type'; do
+    draw some --last=0 -k "$colors" --colorbar some.lammpstrj
+    draw filtered --last=0 -k "$colors" --colorbar --show 'id <= 20' crowd.lammpstrj
+    same some filtered "-k $colors of spheres that --show leaves"
+done
+
 draw fitted row.xyz
 draw zoom_1 --zoom=1 row.xyz
 same fitted zoom_1 "--zoom=1"
@@ -224,7 +245,7 @@ refuses 1 '--box: the file has no box' --box boxless.xyz
 printf '1\nLattice="20 0 0 0 20 0 0 0 0.01"\nO 10 10 0\n' >"$tmp/square.xyz"
 for seen in '1,1,1 10,10 149.282 2' '3,1,1 30,10 447.846 1.333' '3,3,1 30,30 447.846 2'; do
     set -- $seen # images, centre, distance, share of the pixels that lie on edges in percent
-    run 0 -q -n --style plain -s 100x100 -r 1e-4 --box --images "$1" -c "$2,$3,$2,0,0,1,0,15.1893" square.xyz
+    run 0 -q -n --style plain -a 1 -s 100x100 -r 1e-4 --box --images "$1" -c "$2,$3,$2,0,0,1,0,15.1893" square.xyz
     sed -n 's/.*; \([0-9.]*\) % of the rays hit/\1/p' "$tmp/stdout" |
         awk -v least="$4" '{ n++ } $1 < 0.95 * least || $1 > 3 * least { bad++ } END { exit n != 1 || bad > 0 }' ||
         fail "edges of $1 boxes: $(grep 'rays hit' "$tmp/stdout")"

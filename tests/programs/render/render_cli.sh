@@ -381,7 +381,7 @@ is_png "long/$((last - 1)).png"
 
 if command -v oiiotool >/dev/null 2>&1; then
     # A sphere of radius 1 seen from 5: in the middle its depth is 4, in the corner there is nothing.
-    run 0 -s 65x65 -c $camera -r 1 -k type --light 0,0,1 --background ff0000 -o 'look.exr' -o look.png one.xyz
+    run 0 -a 1 -s 65x65 -c $camera -r 1 -k type --light 0,0,1 --background ff0000 -o 'look.exr' -o look.png one.xyz
     oiiotool --info -v "$tmp/look.exr" >"$tmp/info" 2>&1 || fail "oiiotool cannot read look.exr"
     grep -q '65 x *65' "$tmp/info" || fail "look.exr is not 65x65: $(head -n 3 "$tmp/info")"
     grep -q 'R (float), G (float), B (float), Z (float), id (uint)' "$tmp/info" ||

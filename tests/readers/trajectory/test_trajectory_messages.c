@@ -69,6 +69,25 @@ TEST(topologies_without_places)
          "%VERSION\n%FLAG ATOM_NAME\n%FORMAT(20a4)\nCA  \n%FLAG RESIDUE_LABEL\n%FORMAT(20a4)\nALA \n"
          "%FLAG BONDS_INC_HYDROGEN\n%FORMAT(10I8)\n       0       3       1\n",
          "bond 1 of BONDS_INC_HYDROGEN is to an atom that is not there"},
+        {".top", "[ system ]\nnothing\n", "no section [ molecules ] with the molecules of the run"},
+        {".top", "[ moleculetype ]\nA 1\n[ molecules ]\nA 1\n", "the file has no atoms"},
+        {".top", "[ molecules ]\nA 1\n", "no molecule A"},
+        {".top", "[ moleculetype ]\nA 1\n[ molecules ]\nA\n", "a molecule has a name and how many there are"},
+        {".top", "#include \"absent.itp\"\n[ molecules ]\nA 1\n",
+         "no molecule A: the file includes absent.itp, which is"},
+        {".top", "[ moleculetype ]\nA 1\n[ moleculetype ]\nA 1\n", "a second molecule of this name"},
+        {".top", "[ atoms ]\n1 C 1 A C\n", "a section of no molecule"},
+        {".top", "[ moleculetype ]\nA 1\n[ atoms ]\n2 C 1 A C\n",
+         "an atom has a number, 1 and so on, a type, and a residue's number and name"},
+        {".top", "[ moleculetype ]\nA 1\n[ atoms ]\n1 C 1 A C\n[ bonds ]\n1 2\n",
+         "a bond to an atom that is not there"},
+        {".top", "[ moleculetype ]\nA 1\n[ atoms ]\n1 C 1 A C\n[ settles ]\n1 1\n",
+         "a bond to an atom that is not there"},
+        {".top", "[ moleculetype ]\nA 1\n[ atoms ]\n1 C 1 A C\n[ bonds ]\n1\n", "a bond has the numbers of two atoms"},
+        {".top", "#include absent\n", "#include names no file"},
+        {".top", "#ifdef A\n", "#ifdef without #endif"},
+        {".top", "#endif\n", "#endif without #ifdef"},
+        {".top", "#ifdef A\n#else\n#else\n", "#else without #ifdef"},
     };
     static const char run[] = "1\n\n1 0 0 0\n";
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -85,6 +104,35 @@ TEST(topologies_without_places)
                         i ? "2 atoms are more than the limit of 1" : "more atoms than the limit of 1");
     }
     expect_sentence(scratch_text(".psf", two[0]), NULL, "have no positions: give it as the topology of a trajectory");
+}
+
+/* A file that includes itself, and conditions without end. */
+TEST(topologies_within_themselves)
+{
+    char own[300], ifs[800] = "", wide[400];
+    const char *const path = scratch_path(".top"), *const slash = strrchr(path, '/');
+    snprintf(own, sizeof own, "#include \"%s\"\n", slash ? slash + 1 : path);
+    for (int i = 0; i < 65; i++)
+        strcat(ifs, "#ifdef A\n");
+    snprintf(wide, sizeof wide, "#include \"%0300d\"\n", 0);
+    const char *const texts[] = {own, ifs, wide};
+    static const char *const sentences[] = {"more than 32 files that include each other", "more than 64 conditions",
+                                            "#include names no file"};
+    for (int i = 0; i < 3; i++) {
+        const cgt_trajectory_options options = {.topology = path};
+        scratch_fill(path, texts[i], strlen(texts[i]));
+        expect_sentence(scratch_text(".xyz", "1\n\n1 0 0 0\n"), &options, sentences[i]);
+    }
+    enum { LINE = 1024, LINES = 1200 }; /* that goes on, of 1.2 MiB */
+    char *const text = malloc(LINE * LINES);
+    const cgt_trajectory_options options = {.topology = path};
+    assert_non_null(text);
+    memset(text, 'a', LINE * LINES);
+    for (size_t i = 1; i <= LINES; i++)
+        memcpy(text + i * LINE - 2, "\\\n", 2);
+    scratch_fill(path, text, LINE * LINES);
+    free(text);
+    expect_sentence(scratch_text(".xyz", "1\n\n1 0 0 0\n"), &options, "a line that goes on is too long");
 }
 
 TEST(too_many_names)

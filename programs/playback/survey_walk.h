@@ -1,13 +1,12 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Surveys of files. */
+ * Walks along the files of a run, for surveys. */
 #ifndef SURVEY_RUN_H
 #define SURVEY_RUN_H
 
 #include "common/stop_flag.h"
 #include "playback/frame_source.h"
-#include "survey/survey.h"
 
 /* A walk along the frames of a file, from the first on. */
 typedef struct survey_walk {
@@ -27,18 +26,5 @@ typedef struct survey_walk {
 /* Walks, and goes back to the start. Where an error follows some whole frames those were looked at, and reading them
  * again ends in the error. Returns 0, or -1 with a text. */
 int survey_walk_run(survey_walk *walk, frame_source *source, char *error, size_t error_size);
-
-/* What a survey does. */
-typedef struct survey_plan {
-    uint64_t most;                /* looks at the first frames alone, this many */
-    int count;                    /* counts the frames up to the file's end in any case */
-    int quiet;                    /* no progress on the terminal */
-    const stop_flag *stop;        /* not 0: ends the survey with an error */
-    cgt_context *context;         /* whose threads look at large frames; the survey is the same from any number */
-    const camera_directions *fit; /* of spheres, and one more of triangles: what the camera needs; NULL: nothing */
-} survey_plan;
-
-/* Surveys the frames of a file by such a walk. */
-int survey_run(frame_source *source, const survey_plan *plan, survey *result, char *error, size_t error_size);
 
 #endif

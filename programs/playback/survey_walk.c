@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Surveys of files; see survey_run.h. */
-#include "playback/survey_run.h"
+ * Walks along the files of a run; see survey_walk.h. */
+#include "playback/survey_walk.h"
 
 #include <stdio.h>
 
@@ -51,30 +51,4 @@ int survey_walk_run(survey_walk *walk, frame_source *source, char *error, size_t
     if (*walk->stop || wrong || (state < 0 && walk->total == 0))
         return -1;
     return frame_source_rewind(source, error, error_size);
-}
-
-static int look(void *user, char *error, size_t error_size)
-{
-    (void)error;
-    (void)error_size;
-    cgt_survey_look(user);
-    return 0;
-}
-
-int survey_run(frame_source *source, const survey_plan *plan, survey *result, char *error, size_t error_size)
-{
-    survey_team team;
-    survey_walk walk = {.most = plan->most,
-                        .count = plan->count,
-                        .quiet = plan->quiet,
-                        .stop = plan->stop,
-                        .look = look,
-                        .user = &team};
-    cgt_survey_begin(&team, source->sequence, plan->fit, plan->context, result);
-    const int failed = survey_walk_run(&walk, source, error, error_size);
-    cgt_survey_end(&team);
-    result->has_total = walk.has_total;
-    result->total = walk.total;
-    result->is_cut = walk.is_cut;
-    return failed;
 }
