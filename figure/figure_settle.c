@@ -9,7 +9,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "color/given_colors.h"
 #include "survey/origin.h"
 #include "figure_state.h"
 #include "options/numbers.h"
@@ -152,10 +151,7 @@ void cgt_figure_name_camera(const cgt_figure *figure, const cgt_camera *camera, 
 int cgt_figure_choose_colors(cgt_figure *figure)
 {
     const figure_options *o = &figure->options;
-    const int has_rgb = o->by == COLORING_AUTO && cgt_coloring_has_given(&figure->sequence.frame);
-    const coloring_by by = has_rgb                  ? COLORING_RGB
-                           : o->by == COLORING_AUTO ? cgt_coloring_choose(&figure->survey)
-                                                    : o->by;
+    const coloring_by by = o->by == COLORING_AUTO ? cgt_coloring_choose(&figure->survey) : o->by;
     const int axis = o->up[0] != 0.0f ? 0 : o->up[1] != 0.0f ? 1 : 2;
     double min = o->range_min, max = o->range_max;
     if (!o->has_range)
