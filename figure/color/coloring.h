@@ -23,7 +23,8 @@ typedef enum coloring_by {
     COLORING_HEIGHT,  /* along an axis, of a sphere's centre */
     COLORING_PLAIN,   /* one colour for all */
     COLORING_ELEMENT, /* chemical */
-    COLORING_VALUE    /* of a formula over the file's columns */
+    COLORING_VALUE,   /* of a formula over the file's columns */
+    COLORING_RGB      /* of given_colors.h; the palette is the frame's */
 } coloring_by;
 
 enum {

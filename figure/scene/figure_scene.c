@@ -425,6 +425,8 @@ int cgt_figure_scene_set(cgt_figure *figure, const frame_parts *parts)
     figure_scene *s = &figure->parts;
     const cgt_trajectory_frame *f = figure->frame;
     s->frame = parts;
+    if (figure->coloring.by == COLORING_RGB)
+        memcpy(s->palette, figure->coloring.palette, sizeof figure->coloring.palette);
     if (figure->bounce)
         return cgt_figure_bounce_set(figure, parts);
     cgt_result result = f->kind == CGT_TRAJECTORY_TRIANGLES

@@ -18,8 +18,6 @@
  * shown. The same options and frames give the same bytes as cgt-render's, for any number of threads and any variant;
  * texts depend on FreeType and the installed fonts.
  *
- * Not installed yet: programs of this source tree link it, and it may change.
- *
  * Conventions are those of cgt.h and picture.h. Options and data are in the data's own coordinates, whatever origin is
  * subtracted from them.
  * Errors   Functions give a cgt_result; the figure has the sentence. A call of cgt_figure_set that fails changes
@@ -44,7 +42,8 @@ typedef struct cgt_figure cgt_figure;
 
 /* A column: what each particle or vertex has, floats, doubles or halves; id, type and element may be whole numbers.
  * Some names mean something: radius, id, type, element (atomic number), velocity (three numbers), normal (three; of
- * vertices). Others are for formulas and colours. */
+ * vertices), rgb (three, linear; of particles, where no option says what colours show). Others are for formulas and
+ * colours. */
 typedef struct cgt_figure_column {
     const char *name;
     cgt_array values;

@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: MIT
 #
 # The same options and frames give the same bytes through cgt-render and through <cgt/figure.h>, whose frames are those of
-# a file, or a program's columns, and may be kept.
+# a file, or a program's columns, and may be kept; and through Python's cgt.Figure, where CGT_FIGURE_PYTHON has it.
 #   doors.sh CGT_RENDER DATA_DIR FIGURE_RAW [EMULATOR...]
+here=$(cd "$(dirname "$0")" && pwd)
 raw=$(cd "$(dirname "$3")" && pwd)/$(basename "$3")
 render=$1 folder=$2
 shift 3
@@ -41,6 +42,14 @@ f 1 5 7 3
 f 2 4 8 6
 END
 
+# draw_by DOOR FILE [NAME[=VALUE]...]: pictures on standard output
+draw_by() {
+    case $1 in
+    PYTHON) shift && "$CGT_FIGURE_PYTHON" "$here/figure_door.py" "$@" ;;
+    *) $emulator "$raw" "$@" ;;
+    esac
+}
+
 # both FILE [NAME[=VALUE]...]
 both() {
     file=$1
@@ -54,9 +63,9 @@ both() {
         exec $emulator "$program" -q -s 96x64 -o - "$@" "$file"
     ) >"$tmp/render.rgb" 2>"$tmp/render.err" || fail "cgt-render $*: $(head -n 2 "$tmp/render.err")"
     [ -s "$tmp/render.rgb" ] || fail "cgt-render $*: no pictures"
-    for door in FRAMES COLUMNS KEPT; do
-        (cd "$tmp" && exec $emulator "$raw" "$door" "$file" "$@") >"$tmp/figure.rgb" 2>"$tmp/figure.err" ||
-            fail "figure_raw $door $*: $(head -n 2 "$tmp/figure.err")"
+    for door in FRAMES COLUMNS KEPT ${CGT_FIGURE_PYTHON:+PYTHON}; do
+        (cd "$tmp" && draw_by "$door" "$file" "$@") >"$tmp/figure.rgb" 2>"$tmp/figure.err" ||
+            fail "$door $*: $(head -n 2 "$tmp/figure.err")"
         cmp -s "$tmp/render.rgb" "$tmp/figure.rgb" || fail "$door: other bytes than cgt-render's: $file $*"
     done
 }

@@ -387,6 +387,44 @@ TEST(origins_are_found)
     cgt_figure_release(figure);
 }
 
+/* One colour for all is what the option color draws; where there are more than a palette holds, near ones are drawn. */
+TEST(colours_are_those_of_a_column)
+{
+    enum { MANY = 1600 }; /* of more colours than 1,024 */
+    static float color[MANY][3], at[MANY][3];
+    const cgt_figure_column given[] = {{.name = "rgb", .values = cgt_floats(color[0], 0)}};
+    cgt_figure *const figure = make_figure();
+    cgt_figure_data data = grains();
+    uint8_t wanted[BYTES], rgb[BYTES];
+    assert_int_equal(cgt_figure_set(figure, "color", "ff8000"), CGT_OK);
+    draw(figure, &data, wanted);
+    for (int i = 0; i < MANY; i++) {
+        color[i][0] = cgt_srgb_decode(255);
+        color[i][1] = cgt_srgb_decode(128);
+        for (int c = 0; c < 3; c++)
+            at[i][c] = (float)(c == 2 ? 0 : c ? i / 40 : i % 40);
+    }
+    data.points.columns = given;
+    assert_int_equal(cgt_figure_unset(figure, "color"), CGT_OK);
+    draw(figure, &data, rgb);
+    assert_memory_equal(rgb, wanted, sizeof rgb);
+    for (int i = 0; i < MANY; i++) {
+        color[i][0] = (float)(i % 40) / 40.0f;
+        color[i][1] = (float)(i / 40) / 40.0f;
+    }
+    color[7][0] = NAN;
+    data.points = (cgt_figure_points){MANY, cgt_floats(at[0], 0), given, 1, 0.7f};
+    assert_int_equal(cgt_figure_set(figure, "view", "top"), CGT_OK);
+    draw(figure, &data, rgb);
+    for (int i = 0; i < BYTES; i += 3)
+        assert_true(rgb[i + 2] <= 0x37); /* no more blue than the background has */
+    data.points.column_count = 0;
+    draw(figure, &data, rgb); /* a frame that lacks them is grey */
+    for (int i = 0; i < BYTES; i += 3)
+        assert_true(rgb[i + 2] > 3);
+    cgt_figure_release(figure);
+}
+
 TEST(nothing_is_a_figure_too)
 {
     cgt_figure *figure = NULL;
