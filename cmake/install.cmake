@@ -38,7 +38,8 @@ cgt_install_pc(cgt-static "${PROJECT_DESCRIPTION}; the archive, also where the s
 install(FILES LICENSE NEWS DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT library)
 install(FILES README.md CONTRIBUTING.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)
 install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)
-install(FILES examples/draw_spheres.c examples/simulate.c DESTINATION "${CMAKE_INSTALL_DOCDIR}/examples" COMPONENT documentation)
+install(FILES examples/draw_figure.c examples/draw_spheres.c examples/simulate.c
+        DESTINATION "${CMAKE_INSTALL_DOCDIR}/examples" COMPONENT documentation)
 install(DIRECTORY examples/data DESTINATION "${CMAKE_INSTALL_DOCDIR}/examples" COMPONENT documentation)
 # Whoever installs programs alone gets the licence, too.
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT programs)

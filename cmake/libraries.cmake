@@ -119,14 +119,16 @@ endfunction()
 
 # ---- All of it --------------------------------------------------------------------------------------------------
 
-# cgt_add_library(<name> <below> <description> <sources>... [HEADERS <more>...] [NEEDS <libraries>...] [USES <libraries>...])
+# cgt_add_library(<name> <below> <description> <sources>... [HEADERS <more>...] [NEEDS <libraries>...] [USES <libraries>...]
+#                 [REQUIRES <packages>...])
 #   libcgt-<name>, over the public API alone: the archive cgt_<name>_static, the shared library cgt_<name>_shared, and all
 #   that is installed of them: cgt::<name>_static, cgt::<name>_shared, include/cgt/<name>.h, cgt-<name>.pc and
 #   cgt-<name>-static.pc. cgt::<name> is one of them.
 #   below   libraries that it is made of, the next one first, such as cgt-picture,cgt
 #   NEEDS   what its header needs, too; USES what its sources need
+#   REQUIRES   what pkg-config calls that, for who links the archive
 function(cgt_add_library name below description)
-    cmake_parse_arguments(PARSE_ARGV 3 arg "" "" "NEEDS;USES;HEADERS")
+    cmake_parse_arguments(PARSE_ARGV 3 arg "" "" "NEEDS;USES;HEADERS;REQUIRES")
     string(REPLACE "," ";" below "${below}")
     list(GET below 0 next)
     string(REPLACE "-" "_" next_target "${next}")
@@ -152,12 +154,13 @@ function(cgt_add_library name below description)
             install(FILES "${PROJECT_SOURCE_DIR}/include/cgt/${header}.h"
                     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/cgt" COMPONENT library)
         endforeach()
+        list(JOIN arg_REQUIRES " " packages)
         cgt_install_pc(cgt-${name} "${description}" "Requires: ${next}" "Libs: -L\${libdir} -lcgt-${name}"
-                       "Libs.private: -lpthread -lm")
+                       "Libs.private: -lpthread -lm" "Requires.private: ${packages}")
         set(archives cgt-${name} ${below})
         list(TRANSFORM archives REPLACE "(.+)" "\${libdir}/lib\\1.a")
         list(JOIN archives " " archives)
         cgt_install_pc(cgt-${name}-static "${description}; the archives, also where the shared libraries are installed"
-                       "Libs: ${archives} ${cgt_pc_libraries}")
+                       "Libs: ${archives} ${cgt_pc_libraries}" "Requires: ${packages}")
     endif()
 endfunction()

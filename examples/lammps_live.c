@@ -234,13 +234,17 @@ static void shade(const movie *m)
     }
 }
 
-/* What LAMMPS calls from within its run, between two steps. No force is added. */
+/* What LAMMPS calls from within its run, between two steps. The forces are added to the atoms': LAMMPS does not clear
+ * them before. */
 static void draw(void *user, int64_t step, int count, int *ids, double **x, double **force)
 {
     movie *m = user;
     const cgt_ambient_options ambient = {.samples = 8, .radius = 4};
     const clock_t begin = clock();
-    (void)step, (void)force;
+    (void)step;
+    for (int i = 0; i < count; i++)
+        for (int a = 0; a < 3; a++)
+            force[i][a] = 0.0;
     update_sticks(m, count, ids, x);
     update_atoms(m, count, x);
     check(m, cgt_scene_commit(m->scene));

@@ -3,6 +3,7 @@
  *
  * The calls of <cgt/figure.h>: options, a survey of frames, frames that are shown, pictures. */
 #include <inttypes.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,13 +16,16 @@
 
 /* ---- The figure --------------------------------------------------------------------------------------------- */
 
-/* Forgets all that was found of frames; what was set, and the options made of it, stay. */
-static void forget(cgt_figure *figure)
+void cgt_figure_forget(cgt_figure *figure)
 {
     const camera_keys keys = figure->options.keys;
+    const frame_sequence told = {.is_endless = figure->sequence.is_endless,
+                                 .is_followed = figure->sequence.is_followed};
     const notices untold = figure->notices;
     if (figure->is_surveying)
         cgt_survey_end(&figure->team);
+    if (figure->shown)
+        figure->shown->shown_by = NULL;
     memset(&figure->options.keys, 0, sizeof keys);
     memset(&figure->notices, 0, sizeof untold);
     cgt_figure_close(figure);
@@ -32,27 +36,26 @@ static void forget(cgt_figure *figure)
     figure->notices = untold;
     memset((char *)figure + offsetof(struct cgt_figure, origin), 0,
            sizeof *figure - offsetof(struct cgt_figure, origin));
+    figure->sequence = told; /* once is enough */
 }
 
-/* The same, and the options are made anew: cameras were moved, axes and ambient rays chosen in them. */
-static void begin_again(cgt_figure *figure)
+void cgt_figure_begin_again(cgt_figure *figure)
 {
     char ignored[FIGURE_MESSAGE_SIZE]; /* they could be made before */
-    forget(figure);
+    cgt_figure_forget(figure);
     cgt_camera_keys_free(&figure->options.keys);
     cgt_figure_settings_replay(&figure->given, &figure->options, ignored, sizeof ignored);
 }
 
-/* Of figure->message; layers below tell by their sentence alone what has failed. */
-static cgt_result result_of(const cgt_figure *figure)
+cgt_result cgt_figure_result(const cgt_figure *figure)
 {
     return strstr(figure->message, "out of memory") ? CGT_ERROR_OUT_OF_MEMORY : CGT_ERROR_INVALID_ARGUMENT;
 }
 
 static cgt_result fail_frame(cgt_figure *figure)
 {
-    begin_again(figure);
-    return result_of(figure);
+    cgt_figure_begin_again(figure);
+    return cgt_figure_result(figure);
 }
 
 cgt_result cgt_figure_create(cgt_context *context, cgt_figure **figure)
@@ -65,7 +68,6 @@ cgt_result cgt_figure_create(cgt_context *context, cgt_figure **figure)
         return context ? CGT_ERROR_OUT_OF_MEMORY : CGT_ERROR_INVALID_ARGUMENT;
     made->context = context;
     made->source = "figure";
-    made->has_origin = 1;
     *figure = made;
     return cgt_figure_unset(made, NULL);
 }
@@ -74,11 +76,13 @@ void cgt_figure_release(cgt_figure *figure)
 {
     if (!figure)
         return;
-    forget(figure);
+    cgt_figure_forget(figure);
     cgt_camera_keys_free(&figure->options.keys);
     cgt_notices_free(&figure->notices);
     cgt_figure_settings_free(&figure->given);
     cgt_figure_data_free(&figure->mesh);
+    cgt_frame_sequence_close(&figure->keeping.sequence);
+    cgt_figure_data_free(&figure->keeping.data);
     free(figure);
 }
 
@@ -89,6 +93,8 @@ size_t cgt_figure_get_error_message(const cgt_figure *figure, char *text, size_t
         snprintf(text, size, "%s", figure->message);
     return length;
 }
+
+void cgt_figure_set_source(cgt_figure *figure, const char *name) { figure->source = name; }
 
 const char *cgt_figure_take_notice(cgt_figure *figure) { return cgt_notices_take(&figure->notices); }
 
@@ -144,20 +150,27 @@ bool cgt_figure_get_option(uint32_t index, cgt_figure_option *option)
     return false;
 }
 
-cgt_result cgt_figure_set(cgt_figure *figure, const char *name, const char *value)
+static cgt_result change(cgt_figure *figure, settings_change change, const char *name, const char *value)
 {
-    if (cgt_figure_settings_set(&figure->given, name, value, &figure->options, figure->message, sizeof figure->message))
-        return result_of(figure);
-    forget(figure);
+    if (figure->keeping.is_on && figure->is_settled)
+        return cgt_figure_change(figure, change, name, value);
+    if (cgt_figure_settings_change(&figure->given, change, name, value, &figure->options, figure->message,
+                                   sizeof figure->message))
+        return cgt_figure_result(figure);
+    cgt_figure_forget(figure);
     return CGT_OK;
 }
 
-cgt_result cgt_figure_unset(cgt_figure *figure, const char *name)
+cgt_result cgt_figure_set(cgt_figure *figure, const char *name, const char *value)
 {
-    if (cgt_figure_settings_unset(&figure->given, name, &figure->options, figure->message, sizeof figure->message))
-        return result_of(figure);
-    forget(figure);
-    return CGT_OK;
+    return change(figure, SETTINGS_SET, name, value);
+}
+
+cgt_result cgt_figure_unset(cgt_figure *figure, const char *name) { return change(figure, SETTINGS_UNSET, name, NULL); }
+
+cgt_result cgt_figure_set_lines(cgt_figure *figure, const char *settings)
+{
+    return change(figure, SETTINGS_LINES, NULL, settings);
 }
 
 size_t cgt_figure_get(const cgt_figure *figure, const char *name, char *text, size_t size)
@@ -185,11 +198,11 @@ cgt_result cgt_figure_set_mesh(cgt_figure *figure, const cgt_figure_data *mesh)
     else if (!mesh || cgt_figure_data_take(&taken, mesh, figure->message, sizeof figure->message) == 0) {
         cgt_figure_data_free(&figure->mesh);
         figure->mesh = taken;
-        begin_again(figure);
+        cgt_figure_begin_again(figure);
         return CGT_OK;
     }
     cgt_figure_data_free(&taken);
-    return result_of(figure);
+    return cgt_figure_result(figure);
 }
 
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
@@ -198,19 +211,12 @@ cgt_result cgt_figure_set_mesh(cgt_figure *figure, const cgt_figure_data *mesh)
 static int place_frame(cgt_figure *figure, const cgt_figure_data *data)
 {
     frame_sequence *const s = &figure->sequence;
-    int endless;
     if (!data->frame && cgt_figure_data_take(&figure->data, data, figure->message, sizeof figure->message))
         return -1;
     s->frame = data->frame ? *data->frame : figure->data.frame;
     if (s->frame.number != figure->next)
         cgt_frame_sequence_restart(s);
-    if (cgt_frame_sequence_place(s, &s->frame, &endless, figure->message, sizeof figure->message))
-        return -1;
-    if (endless)
-        cgt_notices_add(&figure->notices,
-                        "frame %" PRIu64 " has a molecule that is bonded to its own image: it stays as it is",
-                        s->frame.number);
-    return 0;
+    return cgt_frame_sequence_place(s, &s->frame, &figure->notices, figure->message, sizeof figure->message);
 }
 
 /* Takes it, behind the frame before. */
@@ -251,8 +257,15 @@ static int look(cgt_figure *figure, const cgt_figure_data *data)
 cgt_result cgt_figure_survey(cgt_figure *figure, const cgt_figure_data *data)
 {
     if (figure->has_survey && !figure->is_surveying) /* it has ended */
-        begin_again(figure);
+        cgt_figure_begin_again(figure);
     return look(figure, data) ? fail_frame(figure) : CGT_OK;
+}
+
+bool cgt_figure_needs_frame(const cgt_figure *figure)
+{
+    const uint64_t all = UINT64_MAX, looked = figure->is_surveying ? figure->survey.frames : 0;
+    const uint64_t needed = cgt_figure_needs_frames(figure, all);
+    return looked == 0 || needed == all || (needed == 1 && (looked > 1 || !cgt_figure_is_decided(figure)));
 }
 
 static void end_survey(cgt_figure *figure)
@@ -270,6 +283,7 @@ bool cgt_figure_get_origin(cgt_figure *figure, double origin[3])
 {
     const figure_options *const o = &figure->options;
     double more[3], eye[3], target[3];
+    char text[300];
     end_survey(figure);
     for (int c = 0; c < 3; c++) {
         eye[c] = o->camera.eye[c] - figure->origin[c];
@@ -280,27 +294,52 @@ bool cgt_figure_get_origin(cgt_figure *figure, double origin[3])
                                            cgt_origin_of_bulk(&figure->survey.bulk, more);
     for (int c = 0; c < 3; c++)
         origin[c] = figure->origin[c] + (is_far ? more[c] : 0.0);
+    if (is_far) {
+        cgt_origin_tell(origin, o->has_camera ? "the camera looks at places" : "the spheres are", text, sizeof text);
+        cgt_notices_add(&figure->notices, "%s", text);
+    }
     return is_far;
 }
 
-/* After the survey: all choices. */
-static int settle(cgt_figure *figure)
+int cgt_figure_choose(cgt_figure *figure, const figure_found *was)
 {
     const uint32_t trails = figure->options.particles.trails;
+    floor_options *const floor = &figure->options.floor;
+    const int keeps_floor = was && was->keeps_floor && floor->is_set;
     end_survey(figure);
-    figure->is_mesh = figure->survey.kind == CGT_TRAJECTORY_TRIANGLES;
-    if (cgt_figure_move_cameras(figure) || cgt_figure_choose_colors(figure) ||
-        (figure->mesh.frame.triangles && cgt_figure_scene_mesh(figure, &figure->mesh.frame)) ||
-        cgt_figure_choose_camera(figure) || cgt_figure_settle(figure))
+    if (cgt_figure_move_cameras(figure) ||
+        (was && was->keeps_colors ? cgt_figure_keep_colors(figure, was) : cgt_figure_choose_colors(figure)))
         return -1;
-    if (trails && !(figure->sequence.trails = cgt_trail_history_create(trails)))
+    if (figure->keeping.is_on && cgt_coloring_has_range(&figure->coloring) &&
+        !(figure->coloring.max > figure->coloring.min)) /* so that settings can tell it */
+        figure->coloring.max = figure->coloring.min + fmax(1.0, fabs(figure->coloring.min));
+    if (figure->mesh.frame.triangles && cgt_figure_scene_mesh(figure, &figure->mesh.frame))
+        return -1;
+    if (was && was->keeps_camera)
+        figure->path = was->path;
+    else if (cgt_figure_choose_camera(figure))
+        return -1;
+    if (keeps_floor) {
+        *floor = was->floor;
+        floor->has_place = 1; /* the one that was chosen */
+    }
+    if (was) {
+        memcpy(figure->survey.bounds_min, was->bounds_min, sizeof was->bounds_min);
+        memcpy(figure->survey.bounds_max, was->bounds_max, sizeof was->bounds_max);
+    }
+    if (cgt_figure_settle(figure))
+        return -1;
+    if (keeps_floor)
+        floor->has_place = was->floor.has_place;
+    if (trails && !figure->keeping.is_on && !(figure->sequence.trails = cgt_trail_history_create(trails)))
         return cgt_figure_fail(figure, "out of memory for the trails");
+    if (figure->has_hand)
+        cgt_figure_take_hand(figure);
     figure->is_settled = 1;
     return 0;
 }
 
-/* What the frame must have. */
-static int check_frame(cgt_figure *figure)
+int cgt_figure_check_frame(cgt_figure *figure)
 {
     const cgt_trajectory_frame *const f = &figure->sequence.frame;
     if (f->kind != figure->survey.kind)
@@ -316,21 +355,19 @@ static int check_frame(cgt_figure *figure)
     return 0;
 }
 
-static int show(cgt_figure *figure, const cgt_figure_data *data)
+int cgt_figure_build(cgt_figure *figure, int is_kept)
 {
-    frame_sequence *const s = &figure->sequence;
-    if (!figure->is_settled && ((!figure->has_survey && look(figure, data)) || settle(figure)))
-        return -1;
-    if (place_frame(figure, data) || check_frame(figure) || take_frame(figure))
+    const frame_sequence *const s = &figure->sequence;
+    if (!figure->scene && cgt_figure_make_scene(figure))
         return -1;
     if (cgt_coloring_apply(&figure->coloring, &s->frame, s->speed))
         return cgt_figure_fail(figure, "out of memory for the colours");
     if (cgt_figure_scene_prepare(figure, &s->frame, figure->coloring.index, &figure->drawn, figure->message,
                                  sizeof figure->message))
         return -1;
-    if (cgt_frame_copy_set(&figure->copy, &s->frame))
+    if (!is_kept && cgt_frame_copy_set(&figure->copy, &s->frame))
         return cgt_figure_fail(figure, "out of memory for a copy of frame %" PRIu64, s->frame.number);
-    figure->frame = &figure->copy.frame;
+    figure->frame = is_kept ? &s->frame : &figure->copy.frame;
     figure->speed_from = s->speed_from;
     if (cgt_figure_scene_set(figure, &figure->drawn))
         return -1;
@@ -338,7 +375,19 @@ static int show(cgt_figure *figure, const cgt_figure_data *data)
     if (result)
         return cgt_figure_fail_library(figure, "build", result);
     cgt_figure_camera_at(figure, figure->frame->number, &figure->camera);
+    figure->has_moved = 0;
     return 0;
+}
+
+static int show(cgt_figure *figure, const cgt_figure_data *data)
+{
+    cgt_figure_unshow(figure);
+    if (!figure->is_settled && ((!figure->has_survey && look(figure, data)) || cgt_figure_choose(figure, NULL)))
+        return -1;
+    return place_frame(figure, data) || cgt_figure_check_frame(figure) || take_frame(figure) ||
+                   cgt_figure_build(figure, 0)
+               ? -1
+               : 0;
 }
 
 cgt_result cgt_figure_show(cgt_figure *figure, const cgt_figure_data *data)
@@ -346,34 +395,21 @@ cgt_result cgt_figure_show(cgt_figure *figure, const cgt_figure_data *data)
     return show(figure, data) ? fail_frame(figure) : CGT_OK;
 }
 
-/* ---- Pictures ----------------------------------------------------------------------------------------------- */
+/* ---- Cameras ------------------------------------------------------------------------------------------------ */
 
 cgt_result cgt_figure_get_camera(const cgt_figure *figure, cgt_camera *camera)
 {
-    if (!figure->frame)
+    if (!figure->is_settled)
         return CGT_ERROR_INVALID_ARGUMENT;
     *camera = figure->camera;
     return CGT_OK;
 }
 
-cgt_result cgt_figure_draw(cgt_figure *figure, const cgt_image *image, const cgt_trace_options *options)
+cgt_result cgt_figure_get_up(const cgt_figure *figure, float up[3])
 {
-    if (!figure->frame) {
-        cgt_figure_fail(figure, "nothing is shown");
+    if (!figure->is_settled)
         return CGT_ERROR_INVALID_ARGUMENT;
-    }
-    if (!figure->drawing && cgt_figure_open_picture(figure)) {
-        cgt_figure_close_picture(figure);
-        return result_of(figure);
-    }
-    const int has_gaps = image->row_stride && image->row_stride != 3 * (size_t)figure->options.width;
-    if (figure->overlay.font && (!image->bytes || image->channels == 4 || has_gaps)) {
-        cgt_figure_fail(figure, "texts need an image of three channels, without gaps between its rows");
-        return CGT_ERROR_INVALID_ARGUMENT;
-    }
-    figure->image = *image;
-    const cgt_result result = cgt_figure_trace(figure, options);
-    if (result)
-        cgt_picture_get_error_message(figure->drawing, figure->message, sizeof figure->message);
-    return result;
+    const float *const axis = figure->options.up;
+    memcpy(up, axis[0] != 0.0f || axis[1] != 0.0f || axis[2] != 0.0f ? axis : figure->camera.up, 3 * sizeof *up);
+    return CGT_OK;
 }

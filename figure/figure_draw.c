@@ -326,6 +326,12 @@ void cgt_figure_close_picture(cgt_figure *figure)
 {
     cgt_picture_release(figure->drawing);
     figure->drawing = NULL;
+    for (int i = 0; i < CGT_FIGURE_QUALITIES; i++) {
+        cgt_picture_release(figure->quick[i]);
+        figure->quick[i] = NULL;
+    }
+    free(figure->small);
+    figure->small = NULL;
     cgt_text_close(figure->overlay.font);
     memset(&figure->overlay, 0, sizeof figure->overlay);
 }

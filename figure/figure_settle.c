@@ -48,24 +48,26 @@ int cgt_figure_fail_picture(cgt_figure *figure, cgt_result result)
 /* ---- What must be known ------------------------------------------------------------------------------------- */
 
 /* Whether the colours may turn out to be those of words. */
-static int may_have_words(const cgt_figure *figure)
+static int may_have_words(const figure_options *o) { return o->by == COLORING_VALUE && o->is_name; }
+
+int cgt_figure_wants_kinds(const figure_options *o)
 {
-    return figure->options.by == COLORING_VALUE && cgt_expression_is_name(figure->formula);
+    return (o->picture.legend || o->picture.bar) &&
+           (o->by == COLORING_AUTO || coloring_has_kinds(o->by) || may_have_words(o));
 }
 
-/* Whether types, elements or categories are to be named, which are those of all frames. */
-static int has_legend(const cgt_figure *figure)
+unwrap_mode cgt_figure_unwraps(const figure_options *o)
 {
-    const figure_options *const o = &figure->options;
-    return (o->picture.legend || o->picture.bar) &&
-           (o->by == COLORING_AUTO || coloring_has_kinds(o->by) || may_have_words(figure));
+    return o->whole ? UNWRAP_WHOLE : o->unwrap ? UNWRAP_IMAGES : UNWRAP_NOT;
 }
 
 int cgt_figure_open(cgt_figure *figure)
 {
     const figure_options *o = &figure->options;
     frame_sequence *const sequence = &figure->sequence;
-    const unwrap_mode mode = o->whole ? UNWRAP_WHOLE : o->unwrap ? UNWRAP_IMAGES : UNWRAP_NOT;
+    if (figure->is_open)
+        return 0;
+    figure->is_open = 1;
     if ((o->by == COLORING_VALUE || o->by == COLORING_CATEGORY) &&
         !(figure->formula = cgt_expression_parse(o->formula, figure->message, sizeof figure->message)))
         return -1;
@@ -75,14 +77,12 @@ int cgt_figure_open(cgt_figure *figure)
         if (!sequence->tracker)
             return cgt_figure_fail(figure, "out of memory");
     }
-    sequence->atoms.type = o->particles.types;
-    sequence->atoms.types = o->particles.type_count;
-    sequence->atoms.keeps_radii = figure->keeps_radii;
-    sequence->atoms.wants_bonds = cgt_figure_options_need_bonds(o);
-    sequence->wants_kinds = has_legend(figure);
+    cgt_frame_atoms_set(&sequence->atoms, o->particles.types, o->particles.type_count,
+                        cgt_figure_options_need_bonds(o));
+    sequence->wants_kinds = cgt_figure_wants_kinds(o);
     figure->categories.takes_numbers = o->by == COLORING_CATEGORY;
-    sequence->categories = o->by == COLORING_CATEGORY || may_have_words(figure) ? &figure->categories : NULL;
-    if (cgt_frame_sequence_unwrap(sequence, mode, figure->message, sizeof figure->message) ||
+    sequence->categories = o->by == COLORING_CATEGORY || may_have_words(o) ? &figure->categories : NULL;
+    if (cgt_frame_sequence_unwrap(sequence, cgt_figure_unwraps(o), figure->message, sizeof figure->message) ||
         cgt_frame_sequence_bind(sequence, figure->formula, figure->message, sizeof figure->message))
         return -1;
     return cgt_figure_scene_open(figure);
@@ -92,13 +92,12 @@ uint64_t cgt_figure_needs_frames(const cgt_figure *figure, uint64_t most)
 {
     const figure_options *o = &figure->options;
     const int is_measured = o->by != COLORING_PLAIN && o->by != COLORING_AUTO && !coloring_has_kinds(o->by);
-    const int may_be_words = may_have_words(figure);
-    if (!o->has_camera || (is_measured && !may_be_words && !o->has_range) || (o->floor.is_set && !o->floor.has_place) ||
-        has_legend(figure))
+    if (!o->has_camera || (is_measured && !may_have_words(o) && !o->has_range) ||
+        (o->floor.is_set && !o->floor.has_place) || cgt_figure_wants_kinds(o))
         return most;
-    /* the up axis depends on the kind, and meshes of glass are as dark as they are large */
-    return o->by == COLORING_AUTO || o->by == COLORING_HEIGHT || o->by == COLORING_CATEGORY || may_be_words ||
-           o->bounce.count;
+    /* the up axis and ambient rays depend on the kind, and meshes of glass are as dark as they are large */
+    return o->by == COLORING_AUTO || o->by == COLORING_HEIGHT || o->by == COLORING_CATEGORY || may_have_words(o) ||
+           o->bounce.count || o->picture.ambient < 0;
 }
 
 int cgt_figure_is_decided(const cgt_figure *figure)
@@ -106,7 +105,7 @@ int cgt_figure_is_decided(const cgt_figure *figure)
     const survey *s = &figure->survey;
     if (s->kind == CGT_TRAJECTORY_TRIANGLES && figure->options.bounce.count)
         return 0;
-    if (may_have_words(figure))
+    if (may_have_words(&figure->options))
         return figure->categories.has_words || figure->options.has_range;
     return figure->options.by != COLORING_AUTO || s->kind == CGT_TRAJECTORY_TRIANGLES || s->has_element ||
            s->type_max > s->type_min;
@@ -128,40 +127,6 @@ const camera_directions *cgt_figure_begin_fit(cgt_figure *figure)
 }
 
 /* ---- Origin ------------------------------------------------------------------------------------------------- */
-
-/* `more` is as seen from the origin so far. */
-static void take_origin(cgt_figure *figure, const double more[3], const char *what)
-{
-    for (int c = 0; c < 3; c++)
-        figure->origin[c] += more[c];
-    char text[300];
-    cgt_origin_tell(figure->origin, what, text, sizeof text);
-    cgt_notices_add(&figure->notices, "%s", text);
-}
-
-int cgt_figure_choose_camera_origin(cgt_figure *figure)
-{
-    const camera_key *const camera = &figure->options.camera;
-    double eye[3], target[3], origin[3];
-    for (int c = 0; c < 3; c++) {
-        eye[c] = camera->eye[c] - figure->origin[c];
-        target[c] = camera->target[c] - figure->origin[c];
-    }
-    if (!figure->options.has_camera || figure->has_origin || !cgt_origin_of_camera(eye, target, origin))
-        return 0;
-    take_origin(figure, origin, "the camera looks at places");
-    return 1;
-}
-
-int cgt_figure_choose_bulk_origin(cgt_figure *figure)
-{
-    double origin[3];
-    if (!figure->has_survey || figure->options.has_camera || figure->has_origin ||
-        figure->survey.kind == CGT_TRAJECTORY_TRIANGLES || !cgt_origin_of_bulk(&figure->survey.bulk, origin))
-        return 0;
-    take_origin(figure, origin, "the spheres are");
-    return 1;
-}
 
 int cgt_figure_move_cameras(cgt_figure *figure)
 {
@@ -211,7 +176,7 @@ static int check_categories(cgt_figure *figure)
 int cgt_figure_choose_colors(cgt_figure *figure)
 {
     const figure_options *o = &figure->options;
-    const int is_words = may_have_words(figure) && figure->categories.has_words;
+    const int is_words = may_have_words(o) && figure->categories.has_words;
     const coloring_by by = is_words                 ? COLORING_CATEGORY
                            : o->by == COLORING_AUTO ? cgt_coloring_choose(&figure->survey)
                                                     : o->by;
@@ -248,6 +213,25 @@ int cgt_figure_choose_colors(cgt_figure *figure)
     if (o->logarithmic && !figure->coloring.logarithmic)
         cgt_notices_add(&figure->notices, "--log-scale: there is nothing above 0 to scale: the scale is linear");
     return 0;
+}
+
+/* Nothing is told twice. */
+int cgt_figure_keep_colors(cgt_figure *figure, const figure_found *was)
+{
+    figure_options *const o = &figure->options;
+    const coloring_by by = o->by;
+    const int has_range = o->has_range;
+    const double range[2] = {o->range_min, o->range_max};
+    o->by = was->by;
+    o->has_range = 1;
+    o->range_min = was->min;
+    o->range_max = was->max;
+    const int failed = cgt_figure_choose_colors(figure);
+    o->by = by;
+    o->has_range = has_range;
+    o->range_min = range[0];
+    o->range_max = range[1];
+    return failed;
 }
 
 /* ---- Bonds -------------------------------------------------------------------------------------------------- */
@@ -403,10 +387,19 @@ void cgt_figure_choose_light(cgt_figure *figure)
 void cgt_figure_camera_at(const cgt_figure *figure, uint64_t number, cgt_camera *camera)
 {
     const double share = figure->survey.has_total ? (double)number / (double)figure->survey.total : 0.0;
-    if (figure->options.keys.count)
+    if (figure->has_hand)
+        *camera = figure->hand;
+    else if (figure->options.keys.count)
         cgt_camera_keys_at(&figure->options.keys, number, camera);
     else
         cgt_camera_path_at(&figure->path, share, camera);
+}
+
+void cgt_figure_take_hand(cgt_figure *figure)
+{
+    cgt_camera_path_fixed(&figure->path, &figure->hand, 0.0);
+    figure->camera = figure->hand;
+    cgt_figure_choose_light(figure);
 }
 
 /* ---- All that is left ---------------------------------------------------------------------------------------- */
@@ -420,25 +413,36 @@ static void drop_speeds(cgt_figure *figure)
     figure->sequence.tracker = NULL;
 }
 
+void cgt_figure_choose_ambient(cgt_figure *figure)
+{
+    picture_options *const o = &figure->options.picture;
+    const style_values *const s = cgt_style_get(o->style);
+    if (o->ambient < 0)
+        o->ambient =
+            figure->has_survey && figure->survey.kind == CGT_TRAJECTORY_TRIANGLES ? s->mesh_ambient : s->ambient;
+}
+
+int cgt_figure_make_scene(cgt_figure *figure)
+{
+    const cgt_result result = cgt_scene_create(figure->context, NULL, &figure->scene);
+    if (result)
+        return cgt_figure_fail_library(figure, "make a scene", result);
+    return figure->options.bounce.is_set ? cgt_figure_bounce_create(figure) : 0;
+}
+
 int cgt_figure_settle(cgt_figure *figure)
 {
     figure_options *const o = &figure->options;
     drop_speeds(figure);
-    const cgt_result result = cgt_scene_create(figure->context, NULL, &figure->scene);
-    if (result)
-        return cgt_figure_fail_library(figure, "make a scene", result);
-    const int rays = (int)(o->samples * o->samples);
-    if (o->picture.ambient > 0 && o->picture.ambient < rays)
+    const int rays = (int)(o->samples * o->samples), is_first = !figure->shown;
+    if (is_first && o->picture.ambient > 0 && o->picture.ambient < rays)
         cgt_notices_add(&figure->notices, "--ambient: each of a pixel's %d rays asks once: as with %d", rays, rays);
-    if (o->picture.ambient < 0) {
-        const style_values *const s = cgt_style_get(o->picture.style);
-        o->picture.ambient = figure->is_mesh ? s->mesh_ambient : s->ambient;
-    }
+    cgt_figure_choose_ambient(figure);
     cgt_camera_path_at(&figure->path, 0.0, &figure->camera);
     cgt_figure_choose_light(figure);
     if (o->floor.is_set)
         cgt_figure_scene_floor(figure);
-    return o->bounce.is_set ? cgt_figure_bounce_create(figure) : 0;
+    return cgt_figure_make_scene(figure);
 }
 
 void cgt_figure_close(cgt_figure *figure)

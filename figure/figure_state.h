@@ -3,7 +3,8 @@
  *
  * A figure: options and a run's frames on one side, pictures on the other. It reads no files and prints nothing.
  * In the order of a run: cgt_figure_open; frames taken by its sequence and looked at for its survey; the choices of
- * figure_settle.c; then for each frame cgt_figure_scene_prepare, _set, a commit, and a picture.
+ * figure_settle.c; then for each frame cgt_figure_scene_prepare, _set, a commit, and a picture. figure.c does all that
+ * for its caller; figure_frame.c for frames that are kept, which may be shown by other options without a new survey.
  * Functions that return an int give 0, or -1 with a sentence in figure->message, unless they say otherwise. */
 #ifndef FIGURE_STATE_H
 #define FIGURE_STATE_H
@@ -28,6 +29,22 @@ typedef struct figure_bounce figure_bounce;
 
 enum { FIGURE_MESSAGE_SIZE = 1024 };
 
+/* Frames on their way to be kept; of the thread that keeps them. */
+typedef struct frame_keeping {
+    int is_on;
+    frame_sequence sequence;
+    uint64_t next; /* number of the frame that follows the last one */
+    figure_data data;
+} frame_keeping;
+
+struct cgt_figure_frame {
+    cgt_trajectory_frame *data; /* with all its arrays */
+    float *speed;               /* as frame_sequence.speed */
+    speed_source speed_from;
+    size_t bytes;
+    cgt_figure *shown_by; /* the figure that draws it; NULL: none */
+};
+
 struct cgt_figure {
     /* What the caller sets; what it points to outlives the figure. */
     figure_options options;
@@ -35,16 +52,16 @@ struct cgt_figure {
     cgt_context *context;           /* of the scene */
     bool (*stop)(const void *user); /* asked while a picture is made; NULL: nothing is */
     const void *stop_user;
-    int has_origin;        /* it was given: none is chosen */
-    int keeps_radii;       /* of the data: nobody chose them by a format */
     figure_settings given; /* what <cgt/figure.h> made the options from */
     figure_data mesh;      /* that stands still; without triangles: there is none */
     notices notices;       /* what a user should read */
     char message[FIGURE_MESSAGE_SIZE];
+    int has_hand;
+    cgt_camera hand; /* of all frames, in place of that of the options; where has_hand */
+    frame_keeping keeping;
 
     /* What is known of the data and found of frames; all zero at first. */
     double origin[3]; /* that is subtracted from the data */
-    int is_mesh;      /* the data are a mesh, which gets more ambient rays */
 
     frame_sequence sequence;
     int has_survey;
@@ -66,20 +83,36 @@ struct cgt_figure {
     const cgt_trajectory_frame *frame; /* that is drawn */
     speed_source speed_from;
 
-    cgt_picture *drawing; /* makes the picture */
-    cgt_image image;      /* of the frame: the caller's memory */
+    cgt_picture *drawing;                     /* makes the picture */
+    cgt_picture *quick[CGT_FIGURE_QUALITIES]; /* those of less quality */
+    uint8_t *small;                           /* a picture of fewer pixels */
+    cgt_image image;                          /* of the frame: the caller's memory */
     overlay overlay;
     overlay_kind kinds[OVERLAY_MOST_KINDS]; /* of its legend */
     int has_scale_told, has_labels_told;    /* what is wrong with them */
 
     /* Of <cgt/figure.h> alone. */
-    int is_settled, is_surveying, has_bonds_told;
-    survey_team team;  /* while is_surveying */
-    uint64_t next;     /* number of the frame that follows the last one */
-    figure_data data;  /* the frame at hand, of the caller's columns */
-    frame_copy copy;   /* the places of the shown frame, */
-    frame_parts drawn; /* and what is drawn of it */
+    int is_open, is_settled, is_surveying, has_bonds_told;
+    survey_team team;        /* while is_surveying */
+    uint64_t next;           /* number of the frame that follows the last one */
+    figure_data data;        /* the frame at hand, of the caller's columns */
+    frame_copy copy;         /* the places of the shown frame, */
+    frame_parts drawn;       /* and what is drawn of it */
+    cgt_figure_frame *shown; /* the frame, where it is a kept one */
+    int has_moved;           /* the camera, by which lines have their thickness */
 };
+
+/* What was found of a run, and stays where options change that do not concern it. */
+typedef struct figure_found {
+    int keeps_colors, keeps_camera, keeps_floor, has_kinds;
+    coloring_by by;
+    double min, max;
+    camera_path path;
+    floor_options floor;
+    float bounds_min[3], bounds_max[3];
+    survey_times times;
+    uint8_t has_types[SURVEY_KINDS], has_elements[SURVEY_KINDS];
+} figure_found;
 
 /* Whether an origin is subtracted from the data's coordinates. */
 static inline int figure_is_moved(const cgt_figure *figure)
@@ -98,14 +131,42 @@ int cgt_figure_fail(cgt_figure *figure, const char *format, ...) __attribute__((
 int cgt_figure_fail_library(cgt_figure *figure, const char *action, cgt_result result);
 int cgt_figure_fail_picture(cgt_figure *figure, cgt_result result);
 
+/* Of figure->message; layers below tell by their sentence alone what has failed. */
+cgt_result cgt_figure_result(const cgt_figure *figure);
+
+/* After the survey, which it ends: all choices. was: what stays of those before; NULL: nothing. */
+int cgt_figure_choose(cgt_figure *figure, const figure_found *was);
+
+/* What the sequence's frame must have. */
+int cgt_figure_check_frame(cgt_figure *figure);
+
+/* Has the sequence's frame drawn, whose arrays are copied; or stay where they are until another one is drawn. */
+int cgt_figure_build(cgt_figure *figure, int is_kept);
+
+/* Takes a kept frame's arrays out of the scene. */
+void cgt_figure_unshow(cgt_figure *figure);
+
+/* Forgets all that was found of frames; what was set, and the options made of it, stay. Then the same, and the options
+ * are made anew: cameras were moved, axes and ambient rays chosen in them. */
+void cgt_figure_forget(cgt_figure *figure);
+void cgt_figure_begin_again(cgt_figure *figure);
+
+/* The calls that change options, where frames are kept (figure_frame.c). */
+cgt_result cgt_figure_change(cgt_figure *figure, settings_change change, const char *name, const char *value);
+
 /* ---- Before the first picture (figure_settle.c) ---- */
 
-/* Parses formulas, and makes what the sequence needs; options, context and origin are set, all else is zero. */
+/* Parses formulas, and makes what the sequence needs, once; options and context are set, all else is zero. */
 int cgt_figure_open(cgt_figure *figure);
 
 /* How many frames must be looked at before the first picture: `most`, if those of the run; the first, which tells the
  * kind and whether there are types; or none. */
 uint64_t cgt_figure_needs_frames(const cgt_figure *figure, uint64_t most);
+
+unwrap_mode cgt_figure_unwraps(const figure_options *o);
+
+/* Whether types or elements are to be named, which are those of all frames. */
+int cgt_figure_wants_kinds(const figure_options *o);
 
 /* Whether the first frame, which was looked at alone, is enough for automatic colours. */
 int cgt_figure_is_decided(const cgt_figure *figure);
@@ -113,15 +174,12 @@ int cgt_figure_is_decided(const cgt_figure *figure);
 /* What the automatic camera asks of the survey, before the kind of the data is known: figure->fit, or NULL. */
 const camera_directions *cgt_figure_begin_fit(cgt_figure *figure);
 
-/* An origin for a camera that was given and looks at something far off, before the survey; one for a run that lies far
- * off, after it. Both return 1 where figure->origin has changed, else 0. Then the cameras of the options are moved by
- * the origin, and up and view chosen. */
-int cgt_figure_choose_camera_origin(cgt_figure *figure);
-int cgt_figure_choose_bulk_origin(cgt_figure *figure);
+/* Moves the cameras of the options by the origin, and chooses up and view. */
 int cgt_figure_move_cameras(cgt_figure *figure);
 
 /* After that, in this order: what the colours show and their range; the camera. */
 int cgt_figure_choose_colors(cgt_figure *figure);
+int cgt_figure_keep_colors(cgt_figure *figure, const figure_found *was);
 
 /* Writes where the bonds of a run come from, by its first frame, where options ask and it is not the file alone: "" if
  * there is nothing to tell. Returns -1 if --bonds has none. */
@@ -129,9 +187,14 @@ int cgt_figure_check_bonds(const figure_options *o, const cgt_trajectory_frame *
 int cgt_figure_choose_camera(cgt_figure *figure);
 
 /* The rest: ambient rays, the first light, which is over the left shoulder of the first camera and does not follow an
- * orbit, floor, mirrors and glass, an empty scene. */
+ * orbit, floor, an empty scene, mirrors and glass. */
 int cgt_figure_settle(cgt_figure *figure);
+int cgt_figure_make_scene(cgt_figure *figure); /* the last two of these */
+void cgt_figure_choose_ambient(cgt_figure *figure);
 void cgt_figure_choose_light(cgt_figure *figure);
+
+/* The camera of the hand becomes that of all frames, and what depends on it. */
+void cgt_figure_take_hand(cgt_figure *figure);
 
 /* The camera of the frame `number`. */
 void cgt_figure_camera_at(const cgt_figure *figure, uint64_t number, cgt_camera *camera);

@@ -12,7 +12,7 @@
 typedef enum picture_style { STYLE_SOFT = 0, STYLE_PAPER, STYLE_PLAIN } picture_style;
 
 typedef struct style_values {
-    int ambient, mesh_ambient;     /* rays to the sky, of spheres and of meshes: where those are smooth, grain shows */
+    int ambient, mesh_ambient;     /* rays to the sky, of spheres, of triangles: on smooth ones grain shows */
     int shadows;                   /* 1: the light has shadows */
     float key, sky, head, outline; /* as in cgt_picture_options; key: of the first light */
     uint8_t background[3];         /* sRGB */

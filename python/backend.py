@@ -7,6 +7,8 @@ import shutil
 from setuptools import build_meta
 from setuptools.build_meta import *  # noqa: F403
 
+os.chdir(os.path.dirname(os.path.abspath(__file__)))  # from the top of the tree, too
+
 
 def get_requires_for_build_wheel(config_settings=None):
     """The packages that building takes."""

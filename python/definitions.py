@@ -52,7 +52,7 @@ def build_library(folder: str) -> None:
     options = ["CMAKE_BUILD_TYPE=Release", "CMAKE_BUILD_WITH_INSTALL_RPATH=ON", "CGT_ONLY_LIBRARY=ON",
                "CGT_INSTALL=OFF", "CGT_BUILD_READERS=ON", *(f"CGT_BUILD_{part}=AUTO" for part in ("ARCHIVE", "MESHES", "GLTF", "MPI"))]
     generator = ["-G", "Ninja"] if shutil.which("ninja") else []
-    targets = ["cgt_shared", "cgt_picture_shared", "cgt_trajectory", "cgt_definitions"]
+    targets = ["cgt_shared", "cgt_picture_shared", "cgt_figure_shared", "cgt_trajectory", "cgt_definitions"]
     for command in (["cmake", "-S", source(), "-B", folder, *generator, *("-D" + o for o in options),
                      *shlex.split(os.environ.get("CGT_CMAKE", ""))],
                     ["cmake", "--build", folder, "--parallel", str(os.cpu_count()), "--target"]):
@@ -183,7 +183,7 @@ def _part_file(library, name):
 def parts() -> list:
     """The functions of this file that make what the installed libcgt has."""
     library, makers = find_library(), ["make_ffi"]
-    for name in ("trajectory", "picture", "mpi"):
+    for name in ("trajectory", "picture", "figure", "mpi"):
         if os.path.exists(_part_file(library, name)) and os.path.exists(
                 os.path.join(library.libdir, f"libcgt-{name}.so")):
             makers.append("make_" + name)
@@ -194,7 +194,7 @@ def _make_part(name, below=None):
     """A part whose definitions go on from those of scenes, or of another part."""
     library, base = find_library(), make_picture() if below else make_ffi()
     with open(_part_file(library, name), encoding="utf-8") as file:
-        return _make(library, file.read(), "_" + name, "cgt-" + name, CORE + (below or name,), base)
+        return _make(library, file.read(), "_" + name, "cgt-" + name, CORE + (below if name == "mpi" else name,), base)
 
 
 def make_trajectory() -> cffi.FFI:
@@ -205,6 +205,11 @@ def make_trajectory() -> cffi.FFI:
 def make_picture() -> cffi.FFI:
     """Pictures."""
     return _make_part("picture")
+
+
+def make_figure() -> cffi.FFI:
+    """Labelled pictures."""
+    return _make_part("figure", "picture")
 
 
 def make_mpi() -> cffi.FFI:

@@ -22,7 +22,7 @@ command -v abidiff >/dev/null || { echo "abi.sh: no abidiff: apt-get install abi
 # describe INCLUDE_DIR FILE: the description of all its headers together.
 describe() {
     local header
-    for header in cgt all_hits bounces picture trajectory; do
+    for header in cgt all_hits bounces picture figure trajectory; do
         [ ! -f "$1/cgt/$header.h" ] || echo "#include <cgt/$header.h>"
     done >"$work/headers.c"
     "$cc" -E -P -DCGT_SHARED -I"$1" "$work/headers.c" | tr '\n' ' ' | awk -v RS=';' '

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "color/given_colors.h"
+
 /* ---- Palettes ------------------------------------------------------------------------------------------------ */
 
 static void set_entry(coloring *c, size_t entry, const float srgb[3])
@@ -131,6 +133,7 @@ static uint16_t entry_at(const coloring *c, const cgt_trajectory_frame *frame, c
     case COLORING_AUTO:
     case COLORING_VALUE:
     case COLORING_CATEGORY:
+    case COLORING_RGB:
     case COLORING_PLAIN: break;
     }
     return 0;
@@ -169,6 +172,8 @@ int cgt_coloring_apply(coloring *c, const cgt_trajectory_frame *frame, const flo
         return -1;
     if (c->by == COLORING_VALUE || c->by == COLORING_CATEGORY)
         apply_formula(c, count);
+    else if (c->by == COLORING_RGB)
+        cgt_coloring_give(c, frame);
     else
         for (uint32_t i = 0; i < count; i++)
             c->index[i] = entry_at(c, frame, speeds, i);

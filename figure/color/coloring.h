@@ -22,11 +22,12 @@ typedef enum coloring_by {
     COLORING_TYPE,
     COLORING_ID,
     COLORING_SPEED,
-    COLORING_HEIGHT,  /* along an axis, of a sphere's centre */
-    COLORING_PLAIN,   /* one colour for all */
-    COLORING_ELEMENT, /* chemical */
-    COLORING_VALUE,   /* of a formula over the file's columns */
-    COLORING_CATEGORY /* the words or whole numbers of such a formula */
+    COLORING_HEIGHT,   /* along an axis, of a sphere's centre */
+    COLORING_PLAIN,    /* one colour for all */
+    COLORING_ELEMENT,  /* chemical */
+    COLORING_VALUE,    /* of a formula over the file's columns */
+    COLORING_CATEGORY, /* the words or whole numbers of such a formula */
+    COLORING_RGB       /* of given_colors.h; the palette is the frame's */
 } coloring_by;
 
 enum {
@@ -87,6 +88,12 @@ coloring_by cgt_coloring_choose(const survey *s);
 /* The values at the ends of the map; they stay as they are where the survey knows of none. axis: that points up. */
 void cgt_coloring_choose_range(const survey *s, coloring_by by, int axis, int logarithmic, const double origin[3],
                                double *min, double *max);
+
+/* Whether the colours are those of values. */
+static inline int cgt_coloring_has_range(const coloring *c)
+{
+    return c->by != COLORING_PLAIN && c->by != COLORING_RGB && !coloring_has_kinds(c->by);
+}
 
 /* Widens a range to one about 0. */
 static inline void cgt_coloring_make_symmetric(double *min, double *max)

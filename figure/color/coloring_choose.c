@@ -14,6 +14,8 @@ int cgt_coloring_has_jumps(const survey *s)
 
 coloring_by cgt_coloring_choose(const survey *s)
 {
+    if (s->has_rgb)
+        return COLORING_RGB;
     if (s->has_element)
         return COLORING_ELEMENT;
     if (s->has_type && s->type_max > s->type_min)

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "color/given_colors.h"
 #include "data/element_radii.h"
 #include "options/numbers.h"
 
@@ -126,18 +127,18 @@ static int take_words(const data_reader *r, const cgt_figure_column *c, cgt_traj
     return 0;
 }
 
-static int take_velocity(const data_reader *r, const cgt_figure_column *c)
+/* The same, and a column of each component. */
+static int take_parts(const data_reader *r, const cgt_figure_column *c, const char *const names[3], const float **to)
 {
-    static const char *const names[] = {"vx", "vy", "vz"};
     const uint32_t count = r->from->points.count;
-    if (take_vectors(r, c, &r->to->frame.velocity))
+    if (take_vectors(r, c, to))
         return -1;
     for (int k = 0; k < 3; k++) {
         float *const part = make(r, count, sizeof *part);
         if (!part)
             return -1;
         for (size_t i = 0; i < count; i++)
-            part[i] = r->to->frame.velocity[3 * i + (size_t)k];
+            part[i] = (*to)[3 * i + (size_t)k];
         add_column(r, names[k], part, CGT_TRAJECTORY_NUMBER);
     }
     return 0;
@@ -145,6 +146,8 @@ static int take_velocity(const data_reader *r, const cgt_figure_column *c)
 
 static int take_column(const data_reader *r, const cgt_figure_column *c)
 {
+    static const char *const velocity[] = {"vx", "vy", "vz"}, *const rgb[] = RGB_COLUMNS;
+    const float *ignored;
     cgt_trajectory_frame *const f = &r->to->frame;
     const uint32_t count = r->from->points.count;
     if (!c->name || !*c->name)
@@ -153,7 +156,9 @@ static int take_column(const data_reader *r, const cgt_figure_column *c)
     if (check(r, c->name, &c->values, count, 1))
         return -1;
     if (strcmp(c->name, "velocity") == 0)
-        return take_velocity(r, c);
+        return take_parts(r, c, velocity, &f->velocity);
+    if (strcmp(c->name, "rgb") == 0)
+        return take_parts(r, c, rgb, &ignored);
     if (strcmp(c->name, "normal") == 0 && f->kind == CGT_TRAJECTORY_TRIANGLES)
         return take_vectors(r, c, &f->vertex_normal);
     float *const value = make(r, count, sizeof *value);

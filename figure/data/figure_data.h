@@ -8,7 +8,7 @@
 #include <cgt/figure.h>
 #include <cgt/trajectory.h>
 
-enum { FIGURE_DATA_BLOCKS = 4 * CGT_TRAJECTORY_MOST_COLUMNS + 8 }; /* four for velocities, at most three for others */
+enum { FIGURE_DATA_BLOCKS = 4 * CGT_TRAJECTORY_MOST_COLUMNS + 8 }; /* four for vectors, at most three for others */
 
 /* All zero at first. */
 typedef struct figure_data {

@@ -23,4 +23,7 @@ int cgt_frame_copy_set(frame_copy *copy, const cgt_trajectory_frame *frame);
 
 void cgt_frame_copy_free(frame_copy *copy);
 
+/* A frame with all arrays its own, in one block that free() takes. NULL: no memory. *bytes gets the block's size. */
+cgt_trajectory_frame *cgt_frame_clone(const cgt_trajectory_frame *frame, size_t *bytes);
+
 #endif

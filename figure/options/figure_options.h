@@ -178,6 +178,7 @@ typedef struct figure_options {
 
     coloring_by by;
     const char *formula; /* of COLORING_VALUE and COLORING_CATEGORY */
+    int is_name;         /* the former is a name alone, which may be that of a column of words */
     int logarithmic;
     float plain[3]; /* sRGB, 0 to 1: the one colour of COLORING_PLAIN */
     const cgt_colormap *map;

@@ -23,41 +23,66 @@ int cgt_figure_settings_replay(const figure_settings *s, figure_options *options
 }
 
 /* The settings `next` take the place of those that were, if they can be. Returns 0, or -1 with a sentence. */
-static int take(figure_settings *s, const figure_settings *next, figure_options *options, char *error, size_t size)
+static int take(figure_settings *s, figure_settings *next, figure_options *options, char *error, size_t size)
 {
     figure_options made;
     if (cgt_figure_settings_replay(next, &made, error, size)) {
         cgt_camera_keys_free(&made.keys);
+        cgt_figure_settings_free(next);
         return -1;
     }
     cgt_camera_keys_free(&options->keys);
-    free(s->list);
+    cgt_figure_settings_free(s);
     *s = *next;
     *options = made;
     return 0;
 }
 
-/* A list of what stays: all but the values of one name, or of none. NULL where there is no memory. */
-static figure_setting *copy_without(const figure_settings *s, const char *name, size_t *count)
+static char *copy_text(const char *text, size_t length)
 {
-    figure_setting *const list = malloc((s->count + 1) * sizeof *list);
-    *count = 0;
-    for (size_t i = 0; i < s->count && list; i++)
-        if (!name || strcmp(s->list[i].name, name) != 0)
-            list[(*count)++] = s->list[i];
-    return list;
+    char *const copy = malloc(length + 1);
+    if (copy) {
+        memcpy(copy, text, length);
+        copy[length] = '\0';
+    }
+    return copy;
 }
 
-/* Frees the values of a name that are in `from` alone. */
-static void free_values(const figure_setting *from, size_t count, const char *name)
+int cgt_figure_settings_copy(const figure_settings *from, figure_settings *to)
 {
-    for (size_t i = 0; i < count; i++)
-        if (!name || strcmp(from[i].name, name) == 0)
-            free(from[i].value);
+    *to = (figure_settings){.list = calloc(from->count + 1, sizeof *to->list)};
+    for (; to->list && to->count < from->count; to->count++) {
+        const figure_setting *const f = &from->list[to->count];
+        char *const copy = f->value ? copy_text(f->value, strlen(f->value)) : NULL;
+        if (f->value && !copy) {
+            cgt_figure_settings_free(to);
+            return -1;
+        }
+        to->list[to->count] = (figure_setting){f->name, copy};
+    }
+    return to->list ? 0 : -1;
 }
 
-int cgt_figure_settings_set(figure_settings *s, const char *name, const char *value, figure_options *options,
-                            char *error, size_t size)
+static int fail_memory(char *error, size_t size)
+{
+    snprintf(error, size, "out of memory for options");
+    return -1;
+}
+
+/* Drops the values of one name; NULL: of all. */
+static void drop(figure_settings *s, const char *name)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < s->count; i++)
+        if (name && strcmp(s->list[i].name, name) != 0)
+            s->list[count++] = s->list[i];
+        else
+            free(s->list[i].value);
+    s->count = count;
+}
+
+/* A value of so many letters, NULL: none, goes to the end. */
+static int put(figure_settings *s, const char *name, const char *value, size_t length, char *error, size_t size)
 {
     const option_row *const row = name ? cgt_figure_find_row(name) : NULL;
     if (!row || (value && !row->value) || (!value && row->value && !row->is_optional)) {
@@ -68,46 +93,54 @@ int cgt_figure_settings_set(figure_settings *s, const char *name, const char *va
                  name ? name : "");
         return -1;
     }
-    figure_settings next, before;
-    before.list = copy_without(s, NULL, &before.count); /* whose values are freed when they no longer count */
-    next.list = copy_without(s, row->repeats ? NULL : row->name, &next.count);
-    char *const copy = value ? malloc(strlen(value) + 1) : NULL;
-    if (copy)
-        memcpy(copy, value, strlen(value) + 1);
-    if (!before.list || !next.list || (value && !copy))
-        snprintf(error, size, "out of memory for options");
-    else
-        next.list[next.count++] = (figure_setting){row->name, copy};
-    if (!before.list || !next.list || (value && !copy) || take(s, &next, options, error, size)) {
-        free(before.list);
-        free(next.list);
+    char *const copy = value ? copy_text(value, length) : NULL;
+    figure_setting *const list = realloc(s->list, (s->count + 1) * sizeof *list);
+    s->list = list ? list : s->list;
+    if (!list || (value && !copy)) {
         free(copy);
-        return -1;
+        return fail_memory(error, size);
     }
     if (!row->repeats)
-        free_values(before.list, before.count, row->name);
-    free(before.list);
+        drop(s, row->name);
+    s->list[s->count++] = (figure_setting){row->name, copy};
     return 0;
 }
 
-int cgt_figure_settings_unset(figure_settings *s, const char *name, figure_options *options, char *error, size_t size)
+/* Lines "name = value" or "name". */
+static int put_lines(figure_settings *s, const char *text, char *error, size_t size)
 {
-    figure_settings next = {0}, before = {0};
-    if (name && !cgt_figure_find_row(name)) {
+    char name[64];
+    for (const char *line = text; *line;) {
+        const size_t length = strcspn(line, "\n"), own = strcspn(line, " \n");
+        const int has_value = length >= own + 3 && memcmp(line + own, " = ", 3) == 0;
+        snprintf(name, sizeof name, "%.*s", (int)(has_value ? own : length), line);
+        if (length && put(s, name, has_value ? line + own + 3 : NULL, has_value ? length - own - 3 : 0, error, size))
+            return -1;
+        line += length + (line[length] == '\n');
+    }
+    return 0;
+}
+
+int cgt_figure_settings_change(figure_settings *s, settings_change change, const char *name, const char *value,
+                               figure_options *options, char *error, size_t size)
+{
+    figure_settings next;
+    int failed = 0;
+    if (change == SETTINGS_UNSET && name && !cgt_figure_find_row(name)) {
         snprintf(error, size, "there is no option \"%.80s\"", name);
         return -1;
     }
-    before.list = copy_without(s, NULL, &before.count);
-    next.list = name ? copy_without(s, name, &next.count) : malloc(sizeof *next.list);
-    if (!before.list || !next.list) {
-        snprintf(error, size, "out of memory for options");
-    } else if (take(s, &next, options, error, size) == 0) {
-        free_values(before.list, before.count, name);
-        free(before.list);
-        return 0;
-    }
-    free(before.list);
-    free(next.list);
+    if (cgt_figure_settings_copy(s, &next))
+        return fail_memory(error, size);
+    if (change == SETTINGS_UNSET)
+        drop(&next, name);
+    else if (change == SETTINGS_SET)
+        failed = put(&next, name, value, value ? strlen(value) : 0, error, size);
+    else
+        failed = put_lines(&next, value, error, size);
+    if (!failed)
+        return take(s, &next, options, error, size);
+    cgt_figure_settings_free(&next);
     return -1;
 }
 
@@ -134,7 +167,7 @@ size_t cgt_figure_settings_print(const figure_settings *s, const char *name, cha
 
 void cgt_figure_settings_free(figure_settings *s)
 {
-    free_values(s->list, s->count, NULL);
+    drop(s, NULL);
     free(s->list);
     memset(s, 0, sizeof *s);
 }

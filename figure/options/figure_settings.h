@@ -20,18 +20,23 @@ typedef struct figure_settings {
     size_t count;
 } figure_settings;
 
-/* Sets an option, and makes the options anew, whose texts are those of the settings. Returns 0, or -1 with a sentence:
- * nothing has changed. */
-int cgt_figure_settings_set(figure_settings *s, const char *name, const char *value, figure_options *options,
-                            char *error, size_t error_size);
+typedef enum settings_change {
+    SETTINGS_SET,   /* a name's value; NULL: one without */
+    SETTINGS_UNSET, /* all values of a name; NULL: of all names */
+    SETTINGS_LINES  /* lines "name = value", which are checked together; the name does not count */
+} settings_change;
 
-/* Takes back all values of an option; name NULL: of all. As above. */
-int cgt_figure_settings_unset(figure_settings *s, const char *name, figure_options *options, char *error,
-                              size_t error_size);
+/* Changes settings, and makes the options anew, whose texts are those of the settings. Returns 0, or -1 with a
+ * sentence: nothing has changed. */
+int cgt_figure_settings_change(figure_settings *s, settings_change change, const char *name, const char *value,
+                               figure_options *options, char *error, size_t error_size);
 
 /* Makes options of the settings, which could be made before; keys of the camera are the caller's to free. Returns 0, or
  * -1 with a sentence. */
 int cgt_figure_settings_replay(const figure_settings *s, figure_options *options, char *error, size_t error_size);
+
+/* Copies all settings, with their values. Returns 0, or -1 where there is no memory. */
+int cgt_figure_settings_copy(const figure_settings *from, figure_settings *to);
 
 /* Copies the values of an option, a line each, or all as a settings file; returns the length of the whole text. */
 size_t cgt_figure_settings_print(const figure_settings *s, const char *name, char *text, size_t size);

@@ -84,7 +84,7 @@ const option_row cgt_figure_rows[] = {
      "without shadows, the fastest. The options below change what a style sets",
      WORD(picture.style, STYLE_SOFT, "soft paper plain")},
     {"ambient", 0, "N",
-     "Ambient occlusion by N rays for each pixel, 0 (none) to 256; soft and paper: 5, for files of meshes 16",
+     "Ambient occlusion by N rays for each pixel, 0 (none) to 256; soft and paper: 5, for triangles 16",
      U32(picture.ambient, 0, CGT_PICTURE_MAX_RAYS)},
     {"ambient-radius", 0, "R",
      "What is farther than R world units does not occlude; 0: any distance; default: a quarter of the height that the "

@@ -108,6 +108,7 @@ int cgt_parse_coloring(const char *text, void *to, char *error, size_t size)
     if (!formula)
         return -1;
     cgt_expression_names(formula, &columns);
+    o->is_name = cgt_expression_is_name(formula);
     cgt_expression_free(formula);
     if (!columns) {
         snprintf(error, size, "\"%s\" is neither a colour, as RRGGBB, nor a formula over columns", text);

@@ -225,7 +225,8 @@ static int make_lines(const cgt_figure *figure, const cgt_trajectory_frame *f, f
 {
     const particle_options *o = &figure->options.particles;
     const float radius = o->box_radius > 0.0f ? o->box_radius : 0.0015f * (float)box_diagonal(f);
-    const trail_rules trails = {figure->sequence.trails, o->trail_radius, o->has_trail_color ? FIGURE_TRAIL : -1};
+    const frame_sequence *const sequence = figure->shown ? &figure->keeping.sequence : &figure->sequence;
+    const trail_rules trails = {sequence->trails, o->trail_radius, o->has_trail_color ? FIGURE_TRAIL : -1};
     parts->bonds = parts->sticks.count;
     parts->arrows = parts->sticks.triangles;
     if (o->box && cgt_shapes_add_box(&parts->sticks, f, o->images, radius, FIGURE_BOX)) {
@@ -429,6 +430,8 @@ int cgt_figure_scene_set(cgt_figure *figure, const frame_parts *parts)
     const cgt_trajectory_frame *f = figure->frame;
     s->frame = parts;
     const particle_options *const o = &figure->options.particles;
+    if (figure->coloring.by == COLORING_RGB)
+        memcpy(s->palette, figure->coloring.palette, sizeof figure->coloring.palette);
     if (figure->bounce)
         return cgt_figure_bounce_set(figure, parts);
     cgt_result result = f->kind == CGT_TRAJECTORY_TRIANGLES

@@ -16,6 +16,13 @@ static int fail_memory(const cgt_trajectory_frame *f, char *error, size_t error_
     return cgt_refuse(error, error_size, "out of memory for the atoms of frame %llu", (unsigned long long)f->number);
 }
 
+void cgt_frame_atoms_set(frame_atoms *a, const atom_type *type, uint32_t types, int wants_bonds)
+{
+    memcpy(a->type, type, types * sizeof *type);
+    a->types = types;
+    a->wants_bonds = wants_bonds;
+}
+
 /* ---- Elements ----------------------------------------------------------------------------------------------- */
 
 static int reserve(frame_atoms *a, size_t count)
@@ -58,7 +65,7 @@ static int set_elements(frame_atoms *a, cgt_trajectory_frame *f, char *error, si
         element = f->type[i] == type ? element : element_of(a, f->type[i]);
         type = f->type[i];
         a->element[i] = element >= 0 ? (uint8_t)element : f->element ? f->element[i] : 0;
-        if (element >= 0 && !f->has_radius && !a->keeps_radii)
+        if (element >= 0 && !f->has_radius)
             a->xyzr[4 * (size_t)i + 3] = element_radius((uint32_t)element) * f->angstrom;
     }
     f->element = a->element;

@@ -19,10 +19,8 @@ typedef struct atom_type {
 
 /* All zero at first: frames stay as they are. */
 typedef struct frame_atoms {
-    /* The caller's. */
-    const atom_type *type; /* that are elements; the last of several for a type counts */
+    atom_type type[FRAME_ATOM_TYPES]; /* that are elements; the last of several for a type counts */
     uint32_t types;
-    int keeps_radii; /* those of the frames are said by somebody, not chosen by a format */
     int wants_bonds; /* those of frames with elements that have none are guessed */
     /* Of the frame that was completed last. */
     size_t room, bond_room;
@@ -31,6 +29,9 @@ typedef struct frame_atoms {
     uint32_t *bond;
     uint32_t bonds;
 } frame_atoms;
+
+/* Says what is asked for. */
+void cgt_frame_atoms_set(frame_atoms *a, const atom_type *type, uint32_t types, int wants_bonds);
 
 /* Completes a frame of spheres, which then has arrays of this. Returns 0, or -1 with a sentence: it has no types, or
  * there is no memory. */

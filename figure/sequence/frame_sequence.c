@@ -4,6 +4,7 @@
  * Frames one after the other; see frame_sequence.h. */
 #include "sequence/frame_sequence.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -44,13 +45,33 @@ size_t cgt_frame_sequence_columns(const frame_sequence *s, const char **names, s
     return count;
 }
 
-int cgt_frame_sequence_place(frame_sequence *s, cgt_trajectory_frame *frame, int *endless, char *error,
+int cgt_frame_sequence_place(frame_sequence *s, cgt_trajectory_frame *frame, notices *told, char *error,
                              size_t error_size)
 {
-    *endless = 0;
+    int endless = 0;
     if (cgt_frame_atoms_complete(&s->atoms, frame, error, error_size))
         return -1;
-    return s->unwrap ? cgt_unwrap_frame(s->unwrap, frame, endless, error, error_size) : 0;
+    if (!s->unwrap)
+        return 0;
+    const int failed = cgt_unwrap_frame(s->unwrap, frame, &endless, error, error_size);
+    if (endless && !s->is_endless)
+        cgt_notices_add(told, "frame %" PRIu64 " has a molecule that is bonded to its own image: it stays as it is",
+                        frame->number);
+    s->is_endless |= endless;
+    const int follows = !failed && cgt_unwrap_follows(s->unwrap);
+    if (follows && !s->is_followed)
+        cgt_notices_add(told, "--unwrap: no image flags: spheres are followed from frame to frame through the "
+                              "boundaries");
+    s->is_followed |= follows;
+    return failed;
+}
+
+int cgt_frame_sequence_bind_all(const frame_sequence *s, char *error, size_t error_size)
+{
+    for (uint32_t i = 0; i < s->formula_count; i++)
+        if (cgt_expression_bind(s->formulas[i], &s->frame, s->speed, error, error_size))
+            return -1;
+    return 0;
 }
 
 int cgt_frame_sequence_take(frame_sequence *s, char *error, size_t error_size)
@@ -65,10 +86,7 @@ int cgt_frame_sequence_take(frame_sequence *s, char *error, size_t error_size)
         snprintf(error, error_size, "out of memory for the speeds of frame %llu", number);
         return -1;
     }
-    for (uint32_t i = 0; i < s->formula_count; i++)
-        if (cgt_expression_bind(s->formulas[i], &s->frame, s->speed, error, error_size))
-            return -1;
-    return 0;
+    return cgt_frame_sequence_bind_all(s, error, error_size);
 }
 
 int cgt_frame_sequence_looks_ahead(const frame_sequence *s) { return s->tracker && !s->frame.velocity; }

@@ -12,6 +12,7 @@
 #include "color/categories.h"
 #include "data/expression.h"
 #include "data/particles.h"
+#include "notices.h"
 #include "sequence/frame_atoms.h"
 #include "sequence/trail_history.h"
 #include "data/frame_access.h"
@@ -32,6 +33,7 @@ typedef struct frame_sequence {
     speed_source speed_from;
     expression *formulas[SEQUENCE_FORMULAS]; /* bound to each frame; the caller's */
     uint32_t formula_count;
+    int is_endless, is_followed; /* a molecule without end, spheres that are followed: it was told */
     int wants_kinds;             /* a survey tells which types and elements are shown; the caller's */
     categories *categories;      /* a survey tells of the first formula's; NULL: it does not; the caller's */
     const particle_rules *rules; /* of what is drawn, for a survey; NULL: all as it is; the caller's */
@@ -48,9 +50,12 @@ int cgt_frame_sequence_unwrap(frame_sequence *s, unwrap_mode mode, char *error, 
 size_t cgt_frame_sequence_columns(const frame_sequence *s, const char **names, size_t most);
 
 /* Makes the frame's spheres atoms, and puts its molecules together: it may be that of the sequence, or the second one,
- * for a look ahead. *endless becomes 1 where a molecule is bonded to its own image. Returns 0, or -1 with a text. */
-int cgt_frame_sequence_place(frame_sequence *s, cgt_trajectory_frame *frame, int *endless, char *error,
+ * for a look ahead. What is doubtful is told once. Returns 0, or -1 with a text. */
+int cgt_frame_sequence_place(frame_sequence *s, cgt_trajectory_frame *frame, notices *told, char *error,
                              size_t error_size);
+
+/* Binds the formulas to s->frame and s->speed. Returns 0, or -1 with a text. */
+int cgt_frame_sequence_bind_all(const frame_sequence *s, char *error, size_t error_size);
 
 /* Takes s->frame, which follows the one before: trails, speeds, formulas. Returns 0, or -1 with a text. */
 int cgt_frame_sequence_take(frame_sequence *s, char *error, size_t error_size);

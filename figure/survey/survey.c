@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "color/given_colors.h"
 #include "options/numbers.h"
 
 static int finite_point(const float p[3]) { return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]); }
@@ -360,6 +361,7 @@ void cgt_survey_look(survey_team *team)
     team->first->frames++;
     team->first->kind = frame->kind;
     team->first->has_type |= frame->type != NULL;
+    team->first->has_rgb |= cgt_coloring_has_given(frame);
     survey_box(team->first, team->sequence, fit_of(team));
     float steps[3] = {0.0f, 0.0f, 0.0f};
     if (team->sequence->tracker)

@@ -38,6 +38,7 @@ typedef struct survey {
     uint32_t id_min, id_max; /* indices where the file has no ids */
     uint32_t type_min, type_max;
     int has_type;    /* some frame has types */
+    int has_rgb;     /* some frame has colours of given_colors.h */
     uint64_t speeds; /* known ones */
     uint64_t speed_bins[SURVEY_BINS];
     float boxless_steps[3];                    /* the longest along each axis; see speed.h */

@@ -46,6 +46,7 @@ class Libcgt(ConanFile):
     def generate(self):
         toolchain = CMakeToolchain(self)
         toolchain.variables["CGT_ONLY_LIBRARY"] = True
+        toolchain.variables["CGT_BUILD_TEXT"] = "OFF"  # what is not required here is not to be found by chance
         toolchain.generate()
 
     def build(self):
@@ -58,9 +59,9 @@ class Libcgt(ConanFile):
         CMake(self).install()
 
     def package_info(self):
-        # the package's own files for CMake and pkg-config know both libraries
+        # the package's own files for CMake and pkg-config know all libraries
         self.cpp_info.set_property("cmake_find_mode", "none")
         self.cpp_info.builddirs.append(os.path.join("lib", "cmake", "cgt"))
-        self.cpp_info.libs = ["cgt-picture", "cgt"]
+        self.cpp_info.libs = ["cgt-figure", "cgt-picture", "cgt"]
         if self.settings.os in ("Linux", "FreeBSD"):
             self.cpp_info.system_libs = ["pthread", "m"]

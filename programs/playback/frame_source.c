@@ -21,6 +21,7 @@ int frame_source_open(frame_source *source, frame_sequence *sequence, const char
         return -1;
     }
     source->follows = options && options->follow > 0.0;
+    source->has_radii = options && options->radius > 0.0f;
     return 0;
 }
 
@@ -54,22 +55,16 @@ int frame_source_want_columns(frame_source *source, char *error, size_t error_si
 /* The next frame, its molecules put together. Results as those of trajectory_status. */
 static int read_places(frame_source *source, cgt_trajectory_frame *frame, char *error, size_t error_size)
 {
-    int endless;
+    notices told = {.count = 0};
+    const char *notice;
     const int result = frame_keep_read(&source->keep, source->file, frame, error, error_size);
     if (result != 1)
         return result;
-    const int failed = cgt_frame_sequence_place(source->sequence, frame, &endless, error, error_size);
-    if (endless && !source->is_endless)
-        program_error("warning: frame %llu has a molecule that is bonded to its own image: it stays as it is",
-                      (unsigned long long)frame->number);
-    source->is_endless |= endless;
-    if (failed)
-        return -1;
-    const int follows = source->sequence->unwrap && cgt_unwrap_follows(source->sequence->unwrap);
-    if (follows && !source->is_followed)
-        program_error("--unwrap: no image flags: spheres are followed from frame to frame through the boundaries");
-    source->is_followed |= follows;
-    return 1;
+    frame->has_radius |= source->has_radii;
+    const int failed = cgt_frame_sequence_place(source->sequence, frame, &told, error, error_size);
+    while ((notice = cgt_notices_take(&told)) != NULL)
+        program_error("%s", notice);
+    return failed ? -1 : 1;
 }
 
 static int read_frame(frame_source *source, char *error, size_t error_size)

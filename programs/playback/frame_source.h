@@ -24,9 +24,8 @@ typedef struct frame_source {
     cgt_trajectory *file;
     frame_sequence *sequence; /* that takes each frame; the caller's */
     int follows;              /* more may come at its end */
+    int has_radii;            /* --radius: those of frames are no longer a format's */
     frame_keep keep;          /* frames of the survey; keep.most is the caller's */
-    int is_endless;           /* a molecule without end was told */
-    int is_followed;          /* that spheres are followed was told */
     int looks_ahead; /* the first frame has the speeds towards the second, where the input can be read again; the
                                  caller's, set once a survey is done */
     uint64_t next;   /* number of the file's next frame */

@@ -24,19 +24,19 @@ static stop_flag stop; /* set by the first signal: the run ends after the curren
 static int build_frame(renderer *r, const frame_parts *parts, frame_record *record, cgt_scene_statistics *stats,
                        cgt_research_scene_statistics *research)
 {
-    const cgt_trajectory_frame *frame = r->figure.frame;
-    if (render_result(r, cgt_figure_scene_set(&r->figure, parts)))
+    const cgt_trajectory_frame *frame = r->figure->frame;
+    if (render_result(r, cgt_figure_scene_set(r->figure, parts)))
         return -1;
     r->report.kind = frame->kind;
     const double begin = program_seconds();
-    cgt_result result = cgt_scene_commit(r->figure.scene);
+    cgt_result result = cgt_scene_commit(r->figure->scene);
     record->build_ms = (program_seconds() - begin) * 1e3;
     if (!result)
-        result = cgt_scene_get_statistics(r->figure.scene, stats);
+        result = cgt_scene_get_statistics(r->figure->scene, stats);
     if (!result)
-        result = cgt_research_get_scene_statistics(r->figure.scene, research);
+        result = cgt_research_get_scene_statistics(r->figure->scene, research);
     if (result)
-        return render_result(r, cgt_figure_fail_library(&r->figure, "build", result));
+        return render_result(r, cgt_figure_fail_library(r->figure, "build", result));
     record->primitives = frame_primitives(frame);
     record->skipped_not_finite = stats->skipped_not_finite;
     record->skipped_radius = stats->skipped_radius;
@@ -49,7 +49,7 @@ static int trace_frame(renderer *r, frame_record *record, render_counts *stats)
 {
     const cgt_research_trace_options research = {.statistics = &stats->research};
     cgt_trace_options options;
-    cgt_figure_camera_at(&r->figure, r->figure.frame->number, &r->figure.camera);
+    cgt_figure_camera_at(r->figure, r->figure->frame->number, &r->figure->camera);
     cgt_trace_options_init(&options);
     if (r->options.stats) {
         options.statistics = &stats->trace;
@@ -58,12 +58,12 @@ static int trace_frame(renderer *r, frame_record *record, render_counts *stats)
     if (r->cell)
         return render_cell_frame(r, record);
     const double begin = program_seconds();
-    const cgt_result result = cgt_figure_trace(&r->figure, &options);
+    const cgt_result result = cgt_figure_trace(r->figure, &options);
     record->trace_ms = (program_seconds() - begin) * 1e3;
-    record->hits = cgt_picture_get_hits(r->figure.drawing);
+    record->hits = cgt_picture_get_hits(r->figure->drawing);
     if (result == CGT_ERROR_STOPPED && stop)
         return 1;
-    return render_result(r, result ? cgt_figure_fail_picture(&r->figure, result) : 0);
+    return render_result(r, result ? cgt_figure_fail_picture(r->figure, result) : 0);
 }
 
 /* Draws a frame that was read and hands its picture over. Returns 0, -1 on an error, 1 where a signal stopped it. */
@@ -75,21 +75,21 @@ static int render_frame(renderer *r, read_frame *read)
         return -1;
     writer_done *const done = &picture->done;
     memset(&traced, 0, sizeof traced);
-    r->figure.frame = &read->copy.frame;
-    r->figure.parts.frame = &read->parts; /* a Cell takes no scene, but labels */
-    r->figure.coloring.index = read->index;
-    r->figure.coloring.per_vertex = read->per_vertex;
-    r->figure.speed_from = read->speed_from;
-    r->figure.image = (cgt_image){.bytes = picture->rgb, .alpha = picture->alpha, .linear = picture->pixels};
+    r->figure->frame = &read->copy.frame;
+    r->figure->parts.frame = &read->parts; /* a Cell takes no scene, but labels */
+    r->figure->coloring.index = read->index;
+    r->figure->coloring.per_vertex = read->per_vertex;
+    r->figure->speed_from = read->speed_from;
+    r->figure->image = (cgt_image){.bytes = picture->rgb, .alpha = picture->alpha, .linear = picture->pixels};
     picture->chosen = read->chosen;
-    done->record.number = r->figure.frame->number;
-    done->record.step = r->figure.frame->step;
+    done->record.number = r->figure->frame->number;
+    done->record.step = r->figure->frame->step;
     done->record.read_ms = read->read_ms;
     done->record.color_ms = read->color_ms;
     int result = r->cell ? 0 : build_frame(r, &read->parts, &done->record, &done->scene, &traced.scene);
     if (result == 0)
         result = trace_frame(r, &done->record, &traced);
-    r->figure.coloring.index = NULL; /* the reader's */
+    r->figure->coloring.index = NULL; /* the reader's */
     if (result)
         return result;
     done->counted = r->options.stats;
@@ -166,22 +166,22 @@ static int write_contact_sheet(renderer *r)
 /* How a range was found that the command line does not give. */
 static void print_range_rule(const renderer *r, FILE *to)
 {
-    const survey *const s = &r->figure.survey;
-    const int is_formula = r->figure.coloring.by == COLORING_VALUE;
+    const survey *const s = &r->figure->survey;
+    const int is_formula = r->figure->coloring.by == COLORING_VALUE;
     double min, max;
-    if (r->figure.options.has_range || !r->figure.has_survey ||
-        (!is_formula && r->figure.coloring.by != COLORING_SPEED))
+    if (r->figure->options.has_range || !r->figure->has_survey ||
+        (!is_formula && r->figure->coloring.by != COLORING_SPEED))
         return;
     if (is_formula && s->value_min < s->value_max)
         fprintf(to, ", the %s of values from %g to %g",
-                cgt_survey_value_range(s, r->figure.options.logarithmic, &min, &max) ? "1 % and the 99 % quantile"
-                                                                                     : "least and the greatest",
+                cgt_survey_value_range(s, r->figure->options.logarithmic, &min, &max) ? "1 % and the 99 % quantile"
+                                                                                      : "least and the greatest",
                 s->value_min, s->value_max);
     else if (is_formula)
         fprintf(to, s->values ? ", which all values are" : ", since no value is finite");
     else
         fprintf(to, ", 0 and the 99 %% quantile");
-    if (r->figure.options.is_symmetric)
+    if (r->figure->options.is_symmetric)
         fprintf(to, ", as far below 0 as above");
     if (is_formula && s->values && s->unknown_values)
         fprintf(to, "; %" PRIu64 " more are not finite", s->unknown_values);
@@ -193,7 +193,7 @@ static void print_summary(const renderer *r)
     static const char *const names[] = {"auto",        "type",    "id",      "speed",   "height",
                                         "one for all", "element", "formula", "category"};
     const render_options *o = &r->options;
-    char name[4096];
+    char name[4096], camera[FIGURE_CAMERA_SIZE];
     if (r->report.count == 0)
         return;
     fprintf(to, "%s: %" PRIu32 "x%" PRIu32, o->input, o->figure.width, o->figure.height);
@@ -201,16 +201,17 @@ static void print_summary(const renderer *r)
         fprintf(to, ", %" PRIu32 " rays a pixel", o->figure.samples * o->figure.samples);
     fprintf(to, ", %" PRIu32 " thread%s, variant %s\n", cgt_context_get_threads(r->context),
             cgt_context_get_threads(r->context) == 1 ? "" : "s", cgt_context_get_variant(r->context));
-    fprintf(to, "camera            -c ");
-    renderer_print_camera(r, &r->figure.path.start, to);
-    fprintf(to, "colour            %s", r->figure.formula ? o->figure.formula : names[r->figure.coloring.by]);
-    if (r->figure.coloring.by != COLORING_PLAIN && !coloring_has_kinds(r->figure.coloring.by))
-        fprintf(to, " from %g to %g", r->figure.coloring.min, r->figure.coloring.max);
+    cgt_figure_name_camera(r->figure, &r->figure->path.start, camera);
+    fprintf(to, "camera            -c %s", camera);
+    fprintf(to, "colour            %s",
+            r->figure->formula ? r->figure->options.formula : names[r->figure->coloring.by]);
+    if (cgt_coloring_has_range(&r->figure->coloring))
+        fprintf(to, " from %g to %g", r->figure->coloring.min, r->figure->coloring.max);
     print_range_rule(r, to);
-    if (r->figure.coloring.by == COLORING_SPEED)
+    if (r->figure->coloring.by == COLORING_SPEED)
         fprintf(to, ", %s",
-                r->figure.speed_from == SPEED_FROM_VELOCITY ? "the file's velocities"
-                                                            : "by change of position, a frame");
+                r->figure->speed_from == SPEED_FROM_VELOCITY ? "the file's velocities"
+                                                             : "by change of position, a frame");
     fprintf(to, "\n");
     render_report_print(&r->report,
                         (uint64_t)o->figure.width * o->figure.height * o->figure.samples * o->figure.samples,

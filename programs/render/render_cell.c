@@ -91,7 +91,7 @@ int render_cell_create(renderer *r)
         program_error("--stats counts what the library does, and with --cell it does not trace");
         return -1;
     }
-    if (cgt_figure_get_settings(&r->figure).shading != CGT_SHADING_PLAIN || r->figure.parts.selects) {
+    if (cgt_figure_get_settings(r->figure).shading != CGT_SHADING_PLAIN || r->figure->parts.selects) {
         program_error(
             "--cell casts the camera's rays at the file's spheres: it takes --style plain, and neither lights and "
             "figures nor choices of particles");
@@ -170,30 +170,30 @@ static void count_skipped(const cgt_trajectory_frame *frame, frame_record *recor
 
 int render_cell_frame(renderer *r, frame_record *record)
 {
-    const cgt_trajectory_frame *const frame = r->figure.frame;
+    const cgt_trajectory_frame *const frame = r->figure->frame;
     render_cell *const cell = r->cell;
     if (frame->kind == CGT_TRAJECTORY_TRIANGLES) {
         program_error("%s: --cell traces spheres, and this is a file of triangles", r->options.input);
         return -1;
     }
     cgt_look looks[FIGURE_LOOKS];
-    const uint32_t count = cgt_figure_begin_picture(&r->figure, looks);
+    const uint32_t count = cgt_figure_begin_picture(r->figure, looks);
     cgt_result result =
-        cgt_picture_begin_tiles(r->figure.drawing, NULL, &r->figure.camera, looks, count, &r->figure.image, NULL);
+        cgt_picture_begin_tiles(r->figure->drawing, NULL, &r->figure->camera, looks, count, &r->figure->image, NULL);
     if (result)
-        return render_result(r, cgt_figure_fail_picture(&r->figure, result));
+        return render_result(r, cgt_figure_fail_picture(r->figure, result));
     const cgt_grid_picture picture = {.sphere = frame->xyzr,
                                       .count = frame->count,
-                                      .camera = r->figure.camera,
-                                      .width = r->figure.options.width * r->figure.options.samples,
-                                      .height = r->figure.options.height * r->figure.options.samples,
+                                      .camera = r->figure->camera,
+                                      .width = r->figure->options.width * r->figure->options.samples,
+                                      .height = r->figure->options.height * r->figure->options.samples,
                                       .options = options_of(cell),
                                       .visitor = cgt_picture_visit_tile,
-                                      .user = r->figure.drawing};
+                                      .user = r->figure->drawing};
     const double begin = program_seconds();
     result = cgt_grid_picture_trace(&picture, &cell->result);
     record->trace_ms = (program_seconds() - begin) * 1e3;
-    record->hits = cgt_picture_get_hits(r->figure.drawing);
+    record->hits = cgt_picture_get_hits(r->figure->drawing);
     record->primitives = frame->count;
     count_skipped(frame, record);
     if (result == CGT_ERROR_STOPPED && *r->stop)
@@ -203,7 +203,7 @@ int render_cell_frame(renderer *r, frame_record *record)
                       *cell->result.message ? cell->result.message : cgt_get_result_string(result));
         return -1;
     }
-    cgt_figure_draw_overlay(&r->figure);
+    cgt_figure_draw_overlay(r->figure);
     render_result(r, 0);
     add_result(&cell->sums, &cell->result, cell->options.spes);
     return 0;

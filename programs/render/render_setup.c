@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "trajectory/trajectory_status.h"
+#include "render/render_input.h"
 
 int render_fail(renderer *r)
 {
@@ -22,25 +22,11 @@ int render_fail(renderer *r)
 int render_result(renderer *r, int result)
 {
     const char *notice;
-    while ((notice = cgt_notices_take(&r->figure.notices)) != NULL)
+    while ((notice = cgt_figure_take_notice(r->figure)) != NULL)
         program_error("%s", notice);
     if (result)
-        program_error("%s", r->figure.message);
+        program_error("%s", r->figure->message);
     return result;
-}
-
-void renderer_print_camera(const renderer *r, const cgt_camera *camera, FILE *to)
-{
-    char text[FIGURE_CAMERA_SIZE];
-    cgt_figure_name_camera(&r->figure, camera, text);
-    fputs(text, to);
-}
-
-static void on_log(void *user, cgt_log_level level, const char *message)
-{
-    static const char *const names[] = {"error", "warning", "info"};
-    (void)user;
-    program_error("%s: %s", level <= CGT_LOG_LEVEL_INFO ? names[level] : "log", message);
 }
 
 static int make_folders(renderer *r)
@@ -77,9 +63,9 @@ static int needs_count(const render_options *o)
 static int choose_frames(renderer *r)
 {
     const render_options *o = &r->options;
-    const uint64_t chosen = frame_range_count(&o->range, r->figure.survey.total);
+    const uint64_t chosen = frame_range_count(&o->range, r->survey.total);
     r->count = UINT64_MAX;
-    if (!r->figure.has_survey || !r->figure.survey.has_total)
+    if (!r->survey.has_total)
         return 0;
     if (chosen == 0) {
         program_error("%s: there is no frame%s", o->input,
@@ -106,103 +92,63 @@ static int choose_frames(renderer *r)
     return 0;
 }
 
-/* What must be known of the input: a look at its first frame, and where that does not tell, at all. */
-static int survey_input(renderer *r)
-{
-    render_options *o = &r->options;
-    cgt_figure *const figure = &r->figure;
-    survey_plan plan = {.most = cgt_figure_needs_frames(figure, o->output.survey),
-                        .count = needs_count(o),
-                        .quiet = o->quiet,
-                        .stop = r->stop,
-                        .context = r->context};
-    if (plan.most == 0 && !plan.count)
-        return 0;
-    plan.fit = cgt_figure_begin_fit(figure);
-    cgt_trajectory_set_follow(r->source.file, 0.0); /* the survey takes what is there */
-    figure->has_survey = 1;
-    if (plan.most == 1 && survey_run(&r->source, &plan, &figure->survey, r->error, sizeof r->error))
-        return render_fail(r);
-    if (plan.most == 1 && !cgt_figure_is_decided(figure))
-        plan.most = o->output.survey;
-    if (plan.most != 1 && survey_run(&r->source, &plan, &figure->survey, r->error, sizeof r->error))
-        return render_fail(r);
-    cgt_trajectory_set_follow(r->source.file, o->reading.follow);
-    return 0;
-}
-
-/* What is no atom is left out unless the formula of --show names it. */
-static int shows_sites(const figure_options *o)
-{
-    char error[256];
-    expression *const show = *o->particles.show ? cgt_expression_parse(o->particles.show, error, sizeof error) : NULL;
-    const int uses = show && cgt_expression_uses(show, "site");
-    cgt_expression_free(show);
-    return uses;
-}
-
 static int open_figure(renderer *r)
 {
-    cgt_figure *const figure = &r->figure;
-    figure->options = r->options.figure;
-    figure->source = r->options.input;
-    figure->context = r->context;
-    figure->stop = stop_flag_is_set;
-    figure->stop_user = r->stop;
-    figure->has_origin = r->options.reading.has_origin;
-    figure->keeps_radii = r->options.reading.radius > 0.0f;
-    return render_result(r, cgt_figure_open(figure));
+    const cgt_result result = cgt_figure_create(r->context, &r->figure);
+    if (result || !r->options.settings) {
+        program_error("out of memory");
+        return -1;
+    }
+    cgt_figure_set_stop(r->figure, stop_flag_is_set, r->stop);
+    return render_result(r, figure_run_set(r->figure, r->options.settings) || cgt_figure_open(r->figure) ? -1 : 0);
 }
 
-static int open_first(renderer *r)
+static int open_source(renderer *r)
 {
     render_options *o = &r->options;
-    const figure_options *f = &o->figure;
-    cgt_trajectory_sort_series(o->inputs, o->input_count);
-    o->input = o->inputs[0];
-    if (open_figure(r))
-        return -1;
-    /* which read the input twice */
-    o->reading.keep =
-        cgt_figure_needs_frames(&r->figure, o->output.survey) > 0 || needs_count(o) || r->figure.sequence.tracker;
-    o->reading.all_bonds = cgt_figure_options_need_bonds(f);
-    o->reading.leave_out_sites = !shows_sites(f);
-    o->reading.stop = stop_flag_is_set;
-    o->reading.stop_user = r->stop;
-    o->reading.threads = cgt_context_get_threads(r->context);
-    if (frame_source_open(&r->source, &r->figure.sequence, o->inputs, o->input_count, &o->reading, r->error,
+    render_choose_reading(o, r->context,
+                          cgt_figure_needs_frames(r->figure, o->output.survey) > 0 || needs_count(o) ||
+                              r->figure->sequence.tracker,
+                          r->stop);
+    cgt_figure_set_source(r->figure, o->input);
+    if (frame_source_open(&r->source, &r->figure->sequence, o->inputs, o->input_count, &o->reading, r->error,
                           sizeof r->error))
         return render_fail(r);
     r->source.keep.most = (size_t)o->memory_mib * (1024 * 1024);
-    if (frame_source_want_columns(&r->source, r->error, sizeof r->error))
-        return render_fail(r);
-    r->figure.is_mesh = cgt_trajectory_get_mesh(r->source.file) != NULL;
-    cgt_trajectory_get_origin(r->source.file, r->figure.origin);
-    if (cgt_figure_choose_camera_origin(&r->figure))
-        cgt_trajectory_set_origin(r->source.file, r->figure.origin);
-    render_result(r, 0);
-    return survey_input(r);
+    return frame_source_want_columns(&r->source, r->error, sizeof r->error) ? render_fail(r) : 0;
 }
 
-/* The mesh's first frame, which stays as long as the file is open. */
-static int open_mesh(renderer *r)
+/* A mesh that stands still, less the frames' origin. */
+static int set_mesh(renderer *r, const double origin[3])
 {
-    const char *const path = r->options.mesh;
-    cgt_trajectory_frame mesh;
-    if (!path)
+    cgt_trajectory *file = NULL;
+    cgt_trajectory_frame frame;
+    const cgt_figure_data mesh = {.frame = &frame};
+    int failed = r->options.mesh && render_read_mesh(&r->options, origin, &file, &frame);
+    if (!failed && file)
+        failed = render_result(r, cgt_figure_set_mesh(r->figure, &mesh) ? -1 : 0);
+    cgt_trajectory_close(file);
+    return failed;
+}
+
+/* What must be known of the input: a look at its first frame, and where that does not tell, at all. */
+static int survey_input(renderer *r)
+{
+    const render_options *const o = &r->options;
+    frame_sequence raw = {.unwrap = NULL}; /* the figure takes the frames */
+    const int looks = cgt_figure_needs_frames(r->figure, o->output.survey) > 0;
+    r->survey = (survey_walk){
+        .most = looks ? o->output.survey : 0, .count = needs_count(o), .quiet = o->quiet, .stop = r->stop};
+    if (!looks && !r->survey.count)
         return 0;
-    const cgt_result opened = cgt_trajectory_open(path, NULL, &r->mesh);
-    if (trajectory_failed(r->mesh, opened, r->error, sizeof r->error))
-        return render_fail(r);
-    cgt_trajectory_set_origin(r->mesh, r->figure.origin);
-    const int read = trajectory_status(r->mesh, cgt_trajectory_read(r->mesh, &mesh), r->error, sizeof r->error);
-    if (read < 0)
-        return render_fail(r);
-    if (read == 0 || mesh.kind != CGT_TRAJECTORY_TRIANGLES) {
-        program_error("--mesh: %s has no triangles", path);
-        return -1;
-    }
-    return render_result(r, cgt_figure_scene_mesh(&r->figure, &mesh));
+    cgt_trajectory_set_follow(r->source.file, 0.0); /* it takes what is there */
+    r->source.sequence = &raw;
+    const int failed = figure_run_look(r->figure, &r->source, &r->survey, r->error, sizeof r->error);
+    r->source.sequence = &r->figure->sequence;
+    cgt_frame_sequence_restart(r->source.sequence);
+    cgt_trajectory_set_follow(r->source.file, o->reading.follow);
+    render_result(r, 0);
+    return failed ? render_fail(r) : 0;
 }
 
 static int open_report(renderer *r)
@@ -210,21 +156,30 @@ static int open_report(renderer *r)
     return render_report_open(&r->report, r->options.log_file, r->error, sizeof r->error) ? render_fail(r) : 0;
 }
 
+/* Again, where all lies far from 0. */
 static int open_input(renderer *r)
 {
-    if (make_folders(r) || open_report(r) || open_first(r))
+    double origin[3];
+    if (make_folders(r) || open_report(r) || open_figure(r) || open_source(r))
         return -1;
-    if (cgt_figure_choose_bulk_origin(&r->figure)) {
-        cgt_trajectory_set_origin(r->source.file, r->figure.origin);
+    cgt_trajectory_get_origin(r->source.file, origin);
+    for (int has_origin = r->options.reading.has_origin;; has_origin = 1) {
+        if (set_mesh(r, origin) || survey_input(r))
+            return -1;
+        memcpy(r->figure->origin, origin, sizeof origin); /* also where nothing was looked at */
+        if (has_origin || !cgt_figure_get_origin(r->figure, origin))
+            break;
+        cgt_trajectory_set_origin(r->source.file, origin);
         render_result(r, 0);
         if (frame_source_rewind(&r->source, r->error, sizeof r->error))
             return render_fail(r);
-        if (survey_input(r))
-            return -1;
     }
-    if (render_result(r, cgt_figure_move_cameras(&r->figure)))
+    if (choose_frames(r) || render_result(r, cgt_figure_open(r->figure)) ||
+        render_result(r, cgt_figure_choose(r->figure, NULL)))
         return -1;
-    return choose_frames(r);
+    r->figure->survey.has_total = r->survey.has_total; /* an orbit is over all */
+    r->figure->survey.total = r->survey.total;
+    return 0;
 }
 
 static int prepare_pictures(renderer *r)
@@ -248,42 +203,23 @@ static int prepare_pictures(renderer *r)
     return render_picture_setup(r);
 }
 
-static int create_context(renderer *r)
-{
-    cgt_context_options options;
-    cgt_context_options_init(&options);
-    options.threads = r->options.threads;
-    options.variant = r->options.variant;
-    if (r->options.verbose)
-        options.log.write = on_log;
-    const cgt_result result = cgt_context_create(&options, &r->context);
-    if (result) {
-        char reason[256];
-        cgt_context_get_error_message(r->context, reason, sizeof reason);
-        program_error("cannot start the library: %s: %s", cgt_get_result_string(result), reason);
-    }
-    return result ? -1 : 0;
-}
-
-int render_check_kind(void *user, const cgt_trajectory_frame *frame)
+/* Refuses options that do not fit the kind of the file's first frame; user: the renderer. */
+static int check_kind(void *user, const cgt_trajectory_frame *frame)
 {
     const renderer *const r = user;
     const render_options *o = &r->options;
-    const int triangles = frame->kind == CGT_TRAJECTORY_TRIANGLES;
-    const char *wrong = NULL;
-    if (triangles && r->figure.coloring.by == COLORING_TYPE && !frame->type)
-        wrong = "--color type: the triangles of this file have no types; id, speed, height or RRGGBB will do";
-    else if (triangles && (o->reading.radius > 0.0f || o->reading.wrapped))
-        wrong = "--radius and --wrapped are for spheres, and this is a file of triangles";
-    else if (!triangles && (o->reading.fps > 0.0 || o->reading.clip))
-        wrong = "--fps and --clip are for meshes, and this is a file of spheres";
-    if (wrong)
-        program_error("%s: %s", o->input, wrong);
+    const int is_wrong =
+        frame->kind == CGT_TRAJECTORY_TRIANGLES && r->figure->coloring.by == COLORING_TYPE && !frame->type;
+    if (is_wrong)
+        program_error("%s: --color type: the triangles of this file have no types; id, speed, height or RRGGBB will do",
+                      o->input);
+    if (is_wrong || render_check_reading(o, frame->kind))
+        return -1;
     char bonds[256];
-    const int failed = wrong || cgt_figure_check_bonds(&o->figure, frame, bonds, sizeof bonds);
-    if (!wrong && *bonds)
+    const int failed = cgt_figure_check_bonds(&o->figure, frame, bonds, sizeof bonds);
+    if (*bonds)
         program_error("%s", bonds);
-    return failed ? -1 : 0;
+    return failed;
 }
 
 /* The end of the chosen frames that this run may render; UINT64_MAX: where the input ends. */
@@ -291,7 +227,7 @@ static uint64_t end_of_frames(const renderer *r)
 {
     const frame_range *range = &r->options.range;
     const uint64_t known = r->count > UINT64_MAX - r->begin ? UINT64_MAX : r->begin + r->count;
-    const int open_end = r->options.reading.follow > 0.0 || (r->figure.has_survey && r->figure.survey.is_cut);
+    const int open_end = r->options.reading.follow > 0.0 || r->survey.is_cut;
     const int last_part = r->options.output.part == r->options.output.parts;
     const uint64_t end = open_end && last_part ? UINT64_MAX : known;
     /* --last holds where nobody knows how many frames there are, too */
@@ -313,32 +249,18 @@ static int start_threads(renderer *r)
     writer->text_count = r->text_count;
     if (render_writer_start(writer))
         return -1;
-    if (r->figure.options.particles.trails &&
-        !(r->figure.sequence.trails = cgt_trail_history_create(r->figure.options.particles.trails))) {
-        program_error("out of memory for the trails");
-        return -1;
-    }
     r->source.looks_ahead = 1;
     reader->source = &r->source;
-    reader->coloring = r->figure.coloring; /* its index goes along */
-    r->figure.coloring.index = NULL;
+    reader->coloring = r->figure->coloring; /* its index goes along */
+    r->figure->coloring.index = NULL;
     reader->range = r->options.range;
     reader->next = r->begin;
     reader->end = end_of_frames(r);
     reader->stop = r->stop;
-    reader->check = render_check_kind;
+    reader->check = check_kind;
     reader->user = r;
-    reader->figure = &r->figure;
+    reader->figure = r->figure;
     return render_reader_start(reader);
-}
-
-int render_prepare(renderer *r)
-{
-    cgt_figure *const figure = &r->figure;
-    if (create_context(r) || open_input(r) || render_result(r, cgt_figure_choose_colors(figure)) || open_mesh(r) ||
-        render_result(r, cgt_figure_choose_camera(figure)) || render_result(r, cgt_figure_settle(figure)))
-        return -1;
-    return prepare_pictures(r);
 }
 
 int render_setup(renderer *r)
@@ -347,7 +269,7 @@ int render_setup(renderer *r)
     for (uint32_t i = 0; i < r->options.output_count; i++)
         if (render_output_kind(r->options.outputs[i].pattern) == OUTPUT_RAW)
             r->summary = stderr;
-    if (render_prepare(r))
+    if (render_create_context(&r->options, &r->context) || open_input(r) || prepare_pictures(r))
         return -1;
     if (r->options.cell.mode && render_cell_create(r))
         return -1;
@@ -358,11 +280,11 @@ void render_close(renderer *r)
 {
     render_reader_finish(&r->reader);
     render_cell_release(r->cell);
-    render_picture_close(r);
+    free(r->settings);
+    free(r->options.settings);
     cgt_coloring_free(&r->reader.coloring);
     frame_source_close(&r->source);
-    cgt_figure_close(&r->figure);
-    cgt_trajectory_close(r->mesh);
+    cgt_figure_release(r->figure);
     cgt_context_release(r->context);
     contact_sheet_release(r->sheet);
 }

@@ -12,7 +12,7 @@
 
 #include "common/stop_flag.h"
 #include "picture/overlay/contact_sheet.h"
-#include "playback/survey_run.h"
+#include "playback/figure_run.h"
 #include "common/program.h"
 #include "picture/files/image_write.h"
 #include "figure_state.h"
@@ -27,8 +27,8 @@ typedef struct renderer {
     render_options options; /* as they were given; those that count are figure.options */
     const stop_flag *stop;  /* not 0: a signal has come */
     frame_source source;    /* the reader's, once it has started */
-    cgt_trajectory *mesh;   /* --mesh; NULL: none */
-    cgt_figure figure;      /* its sequence is the reader's, once it has started */
+    cgt_figure *figure;     /* its sequence is the reader's, once it has started */
+    survey_walk survey;     /* what is known of the input */
     uint64_t begin, count;  /* of the chosen frames: the first one of this run, how many; count UINT64_MAX: unknown */
     png_text texts[4];      /* what pictures say of themselves */
     size_t text_count;
@@ -53,21 +53,10 @@ int render_fail(renderer *r);
  * message. Returns the result. */
 int render_result(renderer *r, int result);
 
-/* Writes a camera as -c takes it, in the file's coordinates. */
-void renderer_print_camera(const renderer *r, const cgt_camera *camera, FILE *to);
-
 /* Opens the input and surveys it if necessary, chooses colours and camera, makes folders, buffers and an empty scene,
  * and starts the threads that read and write. options, stop, writer.on_done and writer.user are set, the rest is zero.
  * Returns 0, or -1 with the message printed. */
 int render_setup(renderer *r);
-
-/* All of that but the Cell and the threads: for a program that reads and shows frames in its own order. The source is
- * open, at its first frame. */
-int render_prepare(renderer *r);
-
-/* Refuses options that do not fit the kind of the file's first frame; user: the renderer. Returns 0, or -1 with the
- * message printed. */
-int render_check_kind(void *user, const cgt_trajectory_frame *frame);
 
 /* Frees what render_setup made, also after a failure. The writer is finished before. */
 void render_close(renderer *r);
@@ -75,7 +64,6 @@ void render_close(renderer *r);
 /* Makes figure.drawing with what lies over it, and what pictures say of themselves. Returns 0, or -1 with the message
  * printed. */
 int render_picture_setup(renderer *r);
-void render_picture_close(renderer *r);
 
 /* ---- An emulated Cell (render_cell.c) ----
  * The SPEs find which sphere each ray hits, the PPE t and normal of it, and the usual shading makes the picture, byte

@@ -27,6 +27,8 @@ struct view_frames {
     stop_flag stop; /* ends the waiting for more of a run */
     pthread_t reader, counter;
     int has_reader, has_counter;
+    uint64_t lead;        /* frames before one that it needs */
+    int has_trails;       /* those of the frame that was read last */
     pthread_mutex_t lock; /* of all below */
     pthread_cond_t changed;
     view_slot *at; /* by number among the chosen */
@@ -42,36 +44,11 @@ struct view_frames {
     char error[PROGRAM_ERROR_SIZE];
 };
 
-/* ---- Copies ------------------------------------------------------------------------------------------------- */
-
 static void free_frame(view_frame *f)
 {
-    if (f) {
-        free(f->clone);
-        free(f->speed);
-    }
+    if (f)
+        cgt_figure_frame_release(f->kept);
     free(f);
-}
-
-static view_frame *copy_frame(const frame_sequence *sequence, uint64_t chosen)
-{
-    const size_t speed_bytes = sequence->speed ? sequence->frame.count * sizeof(float) : 0;
-    view_frame *const f = calloc(1, sizeof *f);
-    if (!f)
-        return NULL;
-    f->clone = frame_clone(&sequence->frame, &f->bytes);
-    f->speed = sequence->speed ? malloc(speed_bytes ? speed_bytes : 1) : NULL;
-    if (!f->clone || (sequence->speed && !f->speed)) {
-        free_frame(f);
-        return NULL;
-    }
-    if (speed_bytes)
-        memcpy(f->speed, sequence->speed, speed_bytes);
-    f->frame = *f->clone;
-    f->chosen = chosen;
-    f->speed_from = sequence->speed_from;
-    f->bytes += sizeof *f + speed_bytes;
-    return f;
 }
 
 /* ---- What is kept ------------------------------------------------------------------------------------------- */
@@ -79,7 +56,7 @@ static view_frame *copy_frame(const frame_sequence *sequence, uint64_t chosen)
 /* A frame that may be drawn: trails are those of the frame that was read last. */
 static view_frame *find(const view_frames *f, uint64_t chosen)
 {
-    const int is_there = chosen < f->room && (!f->source.sequence->trails || f->last == chosen);
+    const int is_there = chosen < f->room && (!f->has_trails || f->last == chosen);
     return is_there ? f->at[chosen].frame : NULL;
 }
 
@@ -155,37 +132,31 @@ static int choose_next(view_frames *f, uint64_t *next)
     bytes = f->at[k].frame->bytes;
     while (k < f->end && find(f, k))
         k++;
-    if (f->source.sequence->trails || k >= f->end || !make_room(f, bytes, k))
+    if (f->has_trails || k >= f->end || !make_room(f, bytes, k))
         return 0;
     *next = k;
     return 1;
 }
 
-static int want_all_columns(view_frames *f, char *error, size_t size)
-{
-    const char *names[CGT_TRAJECTORY_MOST_COLUMNS];
-    const cgt_trajectory_frame *const frame = &f->source.sequence->frame;
-    size_t count = 0;
-    for (uint32_t i = 0; i < frame->columns && count < CGT_TRAJECTORY_MOST_COLUMNS; i++)
-        names[count++] = frame->column[i].name;
-    if (trajectory_failed(f->source.file, cgt_trajectory_want_columns(f->source.file, names, count), error, size))
-        return -1;
-    frame_keep_release(&f->source.keep); /* frames without them, the one that has told their names included */
-    return frame_source_rewind(&f->source, error, size) ? -1 : 0;
-}
-
 static int read_frame(view_frames *f, uint64_t chosen, view_frame **frame, char *error, size_t size)
 {
     const uint64_t number = f->options.range.first + chosen * f->options.range.every;
-    if (number < f->source.next && frame_source_rewind(&f->source, error, size))
-        return -1;
-    const int result = frame_source_read(&f->source, number, error, size);
-    if (result != 1)
-        return result;
-    *frame = copy_frame(f->source.sequence, chosen);
-    if (!*frame)
-        snprintf(error, size, "out of memory for frame %llu", (unsigned long long)number);
-    return *frame ? 1 : -1;
+    view_frame *const read = calloc(1, sizeof *read);
+    cgt_figure_frame *kept = NULL;
+    const int result = figure_run_keep(f->options.figure, &f->source, f->lead, number, &kept, error, size);
+    if (result != 1 || !read) {
+        if (!read)
+            snprintf(error, size, "out of memory for frame %llu", (unsigned long long)number);
+        cgt_figure_frame_release(kept);
+        free(read);
+        return result == 1 ? -1 : result;
+    }
+    *read = (view_frame){.frame = *cgt_figure_frame_get_data(kept),
+                         .kept = kept,
+                         .chosen = chosen,
+                         .bytes = sizeof *read + cgt_figure_frame_get_bytes(kept)};
+    *frame = read;
+    return 1;
 }
 
 static void *read_frames(void *user)
@@ -193,10 +164,6 @@ static void *read_frames(void *user)
     view_frames *const f = user;
     char error[PROGRAM_ERROR_SIZE] = "";
     uint64_t next;
-    /* the names of the columns are known with the first frame */
-    if (frame_source_read(&f->source, 0, error, sizeof error) < 0 || want_all_columns(f, error, sizeof error)) {
-        frame_source_rewind(&f->source, error, sizeof error);
-    }
     f->source.looks_ahead = 1;
     pthread_mutex_lock(&f->lock);
     while (!f->closing) {
@@ -282,9 +249,8 @@ view_frames *view_frames_start(frame_source *source, const view_frames_options *
     }
     f->options = *options;
     f->source = *source;
-    f->source.sequence->formula_count = 0; /* who draws binds them, */
-    f->source.sequence->categories = NULL; /* and tells their words */
     memset(source, 0, sizeof *source);
+    f->has_trails = cgt_figure_get(options->figure, "trails", NULL, 0) > 0;
     f->reading = *options->reading;
     f->reading.follow = 0.0;
     f->reading.stop = stop_flag_is_set;
@@ -297,7 +263,8 @@ view_frames *view_frames_start(frame_source *source, const view_frames_options *
     pthread_mutex_init(&f->lock, NULL);
     pthread_cond_init(&f->changed, NULL);
     const int counts = !f->is_counted && are_files(options);
-    f->has_reader = pthread_create(&f->reader, NULL, read_frames, f) == 0;
+    f->has_reader = cgt_figure_begin_keep(options->figure, &f->lead) == CGT_OK &&
+                    pthread_create(&f->reader, NULL, read_frames, f) == 0;
     if (!f->has_reader) {
         program_error("cannot start a thread that reads");
         view_frames_finish(f);

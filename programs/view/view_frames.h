@@ -2,21 +2,19 @@
  * SPDX-License-Identifier: MIT
  *
  * The frames of a run in any order: a thread reads what is wanted and then what follows, and what was read is kept
- * within a bound of memory. Frames have all columns of the file. A second thread counts the frames. */
+ * within a bound of memory. A second thread counts the frames. */
 #ifndef VIEW_FRAMES_H
 #define VIEW_FRAMES_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-#include "playback/frame_source.h"
+#include "playback/figure_run.h"
 
 typedef struct view_frame {
-    cgt_trajectory_frame frame;  /* with the arrays of: */
-    cgt_trajectory_frame *clone; /* to be freed */
-    float *speed;                /* as frame_sequence.speed */
-    speed_source speed_from;
-    uint64_t chosen; /* which of the chosen frames */
+    cgt_trajectory_frame frame; /* with the arrays of: */
+    cgt_figure_frame *kept;     /* for the figure */
+    uint64_t chosen;            /* which of the chosen frames */
     size_t bytes;
     int pins;
 } view_frame;
@@ -24,6 +22,7 @@ typedef struct view_frame {
 typedef struct view_frames view_frames;
 
 typedef struct view_frames_options {
+    cgt_figure *figure;       /* that keeps the frames, after its survey; in a thread of its own */
     const char *const *paths; /* of the run, and how they are read: for the count */
     size_t path_count;
     const cgt_trajectory_options *reading;
@@ -34,7 +33,8 @@ typedef struct view_frames_options {
     void *user;
 } view_frames_options;
 
-/* Takes the source over, which is open and at its first frame. Returns NULL with the message printed. */
+/* Takes the source over, which is open, at its first frame, and reads all columns. Returns NULL with the message
+ * printed. */
 view_frames *view_frames_start(frame_source *source, const view_frames_options *options);
 
 /* Says which frame is wanted, and gives it where it is there, until view_frames_release; else NULL. */

@@ -157,11 +157,3 @@ void view_options_parse(view_options *o, int argc, char **argv)
     options_parse(&table, o, arguments.argc, arguments.argv, &given);
     o->render.settings = given.settings;
 }
-
-void view_options_parse_render(render_options *o, int argc, char **argv)
-{
-    options_given given;
-    render_options_init(o);
-    options_parse(render_option_table(), o, argc, argv, &given);
-    o->settings = given.settings;
-}

@@ -23,8 +23,4 @@ typedef struct view_options {
  * Ends the program on --help, --version and errors, as render_options_parse does. */
 void view_options_parse(view_options *options, int argc, char **argv);
 
-/* Parses a command line of cgt-render that was made here, for its settings. The caller frees
- * options->settings. */
-void view_options_parse_render(render_options *options, int argc, char **argv);
-
 #endif

@@ -92,7 +92,8 @@ viewer *viewer_create(const view_options *options, void (*wake)(void *user), voi
     program_set_error_sink(on_error, v);
     v->draw = view_draw_open(options);
     if (v->draw) {
-        view_draw_first_camera(v->draw, &v->camera, v->axis);
+        cgt_figure_get_camera(v->draw->figure, &v->camera);
+        cgt_figure_get_up(v->draw->figure, v->axis);
         view_camera_straighten(&v->camera);
         memcpy(v->pivot, v->camera.target, sizeof v->pivot);
         v->frames = view_draw_start_frames(v->draw, (size_t)options->render.memory_mib << 20, on_frames, v);
@@ -121,7 +122,6 @@ void viewer_free(viewer *v)
     viewer_stop(v);
     view_draw_stop(v->draw);
     view_frames_release(v->frames, v->shown);
-    view_draw_close_scene(v->draw);
     view_frames_finish(v->frames);
     view_draw_close(v->draw);
     program_set_error_sink(NULL, NULL);
@@ -225,11 +225,11 @@ static void take_frame(viewer *v)
         return;
     }
     const double begin = program_seconds();
-    v->scene_is_wrong = view_draw_set_frame(v->draw, frame, &v->camera) != 0;
+    v->scene_is_wrong = viewer_show_frame(v, frame) != 0;
     v->build_cost = 0.8 * v->build_cost + 0.2e3 * (program_seconds() - begin);
     view_frames_release(v->frames, v->shown);
     v->shown = frame;
-    v->is_arriving = v->is_arriving && !frame_primitives(&frame->frame);
+    v->is_arriving = v->is_arriving && !figure_run_shows(frame->kept);
     v->wanted += (uint64_t)v->is_arriving;
     v->outdated = 1;
     v->changed = 1;
@@ -305,8 +305,8 @@ int viewer_take_clipboard(viewer *v, char *text, size_t size)
 void viewer_describe(const viewer *v, char *text, size_t size)
 {
     static const char *const names[] = {"plain", "shadows", "full"};
-    char lines[4][128];
-    if (!v->shown) {
+    char lines[4][128], *const color = v->shown ? view_draw_get(v->draw, cgt_figure_get_chosen, "color") : NULL;
+    if (!color) {
         snprintf(text, size, "no frame");
         return;
     }
@@ -315,10 +315,11 @@ void viewer_describe(const viewer *v, char *text, size_t size)
                  "frame %llu, %s, 1/%u, color %s, eye %.9g,%.9g,%.9g, %llu pictures, at %.3f s, %.3f s of CPU, "
                  "event to picture %.1f ms, longest %.1f ms",
                  (unsigned long long)v->shown->frame.number,
-                 v->quality == VIEW_FULL && !v->is_full ? "grows" : names[v->quality], v->shrink,
-                 view_draw_color_name(v->draw), (double)v->camera.eye[0], (double)v->camera.eye[1],
-                 (double)v->camera.eye[2], (unsigned long long)v->drawn, program_seconds() - v->created,
-                 (double)clock() / CLOCKS_PER_SEC, v->waits ? v->waited / (double)v->waits : 0.0, v->longest_wait);
+                 v->quality == VIEW_FULL && !v->is_full ? "grows" : names[v->quality], v->shrink, strtok(color, "\n"),
+                 (double)v->camera.eye[0], (double)v->camera.eye[1], (double)v->camera.eye[2],
+                 (unsigned long long)v->drawn, program_seconds() - v->created, (double)clock() / CLOCKS_PER_SEC,
+                 v->waits ? v->waited / (double)v->waits : 0.0, v->longest_wait);
+    free(color);
     if (v->picks && viewer_pick_lines(v, lines, 1) && length > 0 && (size_t)length < size)
         snprintf(text + length, size - (size_t)length, ", selected %s", lines[0]);
 }

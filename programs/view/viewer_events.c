@@ -30,9 +30,10 @@ static int pixel_of(const viewer *v, float x, float y, uint32_t pixel[2])
 static int place_under(viewer *v, float x, float y, float place[3])
 {
     uint32_t pixel[2];
-    view_hit hit;
+    cgt_figure_hit hit;
     if (v->shown && !v->scene_is_wrong && pixel_of(v, x, y, pixel) &&
-        view_draw_pick(v->draw, &v->camera, pixel[0], pixel[1], &hit) == 0 && hit.is_hit) {
+        cgt_figure_set_camera(v->draw->figure, &v->camera) == CGT_OK &&
+        cgt_figure_pick(v->draw->figure, pixel[0], pixel[1], &hit) == CGT_OK && hit.is_hit) {
         memcpy(place, hit.place, sizeof hit.place);
         return 1;
     }
@@ -82,7 +83,7 @@ static void press(viewer *v, const view_event *e)
         float place[3];
         if (place_under(v, e->x, e->y, place)) {
             memcpy(v->pivot, place, sizeof v->pivot);
-            view_camera_target(&v->camera, place, view_draw_options(v->draw)->picture.ortho);
+            view_camera_target(&v->camera, place, view_draw_has(v->draw, "ortho"));
             viewer_say(v, "turns about the point under the pointer; f: about the middle");
             camera_moved(v);
         }
@@ -152,8 +153,11 @@ static void look_along(viewer *v, int axis, int from_below)
 
 static void fit(viewer *v)
 {
-    if (!v->shown || v->scene_is_wrong || view_draw_fit(v->draw, &v->camera))
+    cgt_figure *const figure = v->draw->figure;
+    if (!v->shown || v->scene_is_wrong || view_draw_tell(v->draw, cgt_figure_set_camera(figure, &v->camera)) ||
+        view_draw_tell(v->draw, cgt_figure_fit(figure)))
         return;
+    cgt_figure_get_camera(figure, &v->camera);
     memcpy(v->pivot, v->camera.target, sizeof v->pivot);
     camera_moved(v);
 }
@@ -234,10 +238,7 @@ static void key(viewer *v, int key, int shift)
     case 'x':
     case 'y':
     case 'z': look_along(v, key - 'x', shift); break;
-    case 'o':
-        view_draw_options(v->draw)->picture.ortho ^= 1;
-        camera_moved(v);
-        break;
+    case 'o': view_draw_has(v->draw, "ortho") ? viewer_unset(v, "ortho") : viewer_set(v, "ortho", NULL); break;
     case 'l': viewer_open_list(v); break;
     case 'd':
     case VIEW_KEY_DELETE: viewer_hide(v, shift, 0); break;

@@ -10,7 +10,7 @@
 #include "common/program.h"
 #include "text/text.h"
 #include "view/view_camera.h"
-#include "view/draw/view_draw.h"
+#include "view/view_draw.h"
 #include "view/viewer.h"
 
 enum { VIEW_PICKS = 3, VIEW_MESSAGES = 6, VIEW_LIST_MOST = 300, VIEW_LEVELS = 6 };
@@ -26,6 +26,12 @@ typedef struct view_message {
     char text[512];
     double until; /* seconds; 0: it was not yet seen */
 } view_message;
+
+typedef enum view_quality {
+    VIEW_PLAIN = CGT_FIGURE_PLAIN,
+    VIEW_SHADOWS = CGT_FIGURE_SHADOWS,
+    VIEW_FULL = CGT_FIGURE_QUALITIES /* as cgt-render */
+} view_quality;
 
 typedef enum view_drag { DRAG_NONE = 0, DRAG_TURN, DRAG_PAN, DRAG_BAR } view_drag;
 
@@ -62,6 +68,7 @@ struct viewer {
     view_quality quality; /* of it */
     uint32_t shrink;
     int is_full;
+    uint32_t grown;                  /* rays of the picture at rest so far, of each of the camera's hits */
     double cost[VIEW_LEVELS];        /* ms; 0: not known */
     double build_cost, compose_cost; /* ms of a frame beside drawing */
     double frame_ms, last_picture;
@@ -79,7 +86,6 @@ struct viewer {
     uint32_t list_count;
     view_pick pick[VIEW_PICKS];
     uint32_t picks;
-    char condition[1024]; /* of what is hidden */
     char clipboard[512];
     int has_clipboard;
 
@@ -99,6 +105,12 @@ struct viewer {
     uint64_t picture_number;
     char title[256];
 };
+
+/* viewer_set.c: an option of the figure: sets it, or takes it back, and what is seen follows; or a sentence tells why
+ * not. Return 0 or -1. All controls of looks go this way. */
+int viewer_set(viewer *v, const char *name, const char *value);
+int viewer_unset(viewer *v, const char *name);
+int viewer_show_frame(viewer *v, view_frame *frame); /* makes it the one that is drawn; the same results */
 
 /* viewer_events.c: changes the state. */
 void viewer_handle(viewer *v, const view_event *event);

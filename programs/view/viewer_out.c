@@ -35,27 +35,9 @@ static int find_name(const viewer *v, char *pattern, char *name, size_t size)
     return -1;
 }
 
-/* An argument as a shell takes it. */
-static void print_argument(const char *text, FILE *to)
-{
-    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=,:+%@-";
-    if (*text && text[strspn(text, plain)] == '\0') {
-        fputs(text, to);
-        return;
-    }
-    fputc('\'', to);
-    for (; *text; text++)
-        if (*text == '\'')
-            fputs("'\\''", to);
-        else
-            fputc(*text, to);
-    fputc('\'', to);
-}
-
 void viewer_write_picture(viewer *v)
 {
     char pattern[4096], name[4096], error[PROGRAM_ERROR_SIZE];
-    int argc = 0;
     if (!v->shown || v->scene_is_wrong)
         return;
     if (find_name(v, pattern, name, sizeof name)) {
@@ -66,20 +48,14 @@ void viewer_write_picture(viewer *v)
         program_error("%s", error);
         return;
     }
-    char **const argv = view_draw_command(v->draw, &v->camera, pattern, &argc);
-    if (!argv)
+    if (view_draw_tell(v->draw, cgt_figure_set_camera(v->draw->figure, &v->camera)))
         return;
-    if (view_draw_write(v->draw, argv, argc, v->shown, name) == 0) {
-        for (int i = 0; i < argc; i++) {
-            print_argument(argv[i], stdout);
-            fputc(i + 1 < argc ? ' ' : '\n', stdout);
-        }
-        fflush(stdout);
+    char *const settings = view_draw_settings(v->draw);
+    if (settings && view_draw_write(v->draw, settings, name) == 0) {
+        view_draw_print_command(v->draw, settings, v->shown->frame.number, pattern);
         viewer_say(v, "wrote %s", name);
     }
-    for (int i = 0; i < argc; i++)
-        free(argv[i]);
-    free(argv);
+    free(settings);
     v->outdated = v->changed = 1;
 }
 
@@ -137,17 +113,11 @@ static void merge_keys(const char *text, uint64_t frame, const char *key, FILE *
 /* The camera as -c takes it, without the line feed. */
 static char *camera_text(const viewer *v)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *const to = open_memstream(&text, &size);
-    if (to)
-        view_draw_print_camera(v->draw, &v->camera, to);
-    if (!to || fclose(to) != 0) {
-        free(text);
-        program_error("out of memory");
+    if (view_draw_tell(v->draw, cgt_figure_set_camera(v->draw->figure, &v->camera)))
         return NULL;
-    }
-    text[strcspn(text, "\n")] = '\0';
+    char *const text = view_draw_get(v->draw, cgt_figure_get_chosen, "camera");
+    if (text)
+        text[strcspn(text, "\n")] = '\0';
     return text;
 }
 

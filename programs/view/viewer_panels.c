@@ -191,7 +191,7 @@ static void draw_picks(viewer *v)
 {
     const canvas c = canvas_of(v);
     const float aspect = (float)v->width / (float)v->height;
-    const int is_parallel = view_draw_options(v->draw)->picture.ortho;
+    const int is_parallel = view_draw_has(v->draw, "ortho");
     float at[VIEW_PICKS][2];
     int seen[VIEW_PICKS] = {0};
     for (uint32_t i = 0; i < v->picks; i++) {

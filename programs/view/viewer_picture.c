@@ -27,7 +27,7 @@ int viewer_is_moving(const viewer *v)
 
 int viewer_picture_resize(viewer *v, uint32_t width, uint32_t height, float scale)
 {
-    char error[PROGRAM_ERROR_SIZE];
+    char error[PROGRAM_ERROR_SIZE], size[32];
     const uint32_t least = 16, most = 16384;
     width = width < least ? least : width > most ? most : width;
     height = height < least ? least : height > most ? most : height;
@@ -38,7 +38,8 @@ int viewer_picture_resize(viewer *v, uint32_t width, uint32_t height, float scal
     free(v->over);
     v->rgb = calloc(bytes, 1);
     v->over = malloc(bytes);
-    if (!v->rgb || !v->over || (v->draw && view_draw_resize(v->draw, width, height))) {
+    snprintf(size, sizeof size, "%ux%u", width, height);
+    if (!v->rgb || !v->over || (v->draw && view_draw_tell(v->draw, cgt_figure_set(v->draw->figure, "size", size)))) {
         program_error("out of memory for a window of %ux%u pixels", width, height);
         return -1;
     }
@@ -68,9 +69,13 @@ static int choose_level(viewer *v)
 static double draw_moving(viewer *v)
 {
     const int level = choose_level(v);
-    const stop_flag never = 0;
     const double begin = program_seconds();
-    if (view_draw_picture(v->draw, &v->camera, levels[level].quality, levels[level].shrink, v->rgb, &never)) {
+    const cgt_image image = {.bytes = v->rgb};
+    cgt_figure *const figure = v->draw->figure;
+    cgt_result result = cgt_figure_set_camera(figure, &v->camera);
+    if (!result)
+        result = cgt_figure_draw_quick(figure, (cgt_figure_quality)levels[level].quality, levels[level].shrink, &image);
+    if (view_draw_tell(v->draw, result)) {
         v->scene_is_wrong = 1;
         return INFINITY;
     }
@@ -94,14 +99,23 @@ static double draw_better(viewer *v)
 {
     const int begins = v->quality != VIEW_FULL;
     uint8_t *const picture = v->over; /* what lies over it is drawn anew in any case */
+    cgt_figure *const figure = v->draw->figure;
+    const cgt_image image = {.bytes = picture};
     uint32_t left = 0;
-    if (begins && view_draw_follows_camera(v->draw) && view_draw_set_frame(v->draw, v->shown, &v->camera)) {
-        v->scene_is_wrong = 1;
-        return INFINITY;
+    v->grown = begins ? 0 : v->grown ? 2 * v->grown : 1; /* steps of one ray would take twice as long in all */
+    cgt_result result = begins ? cgt_figure_set_camera(figure, &v->camera) : CGT_OK;
+    if (!result && begins) {
+        cgt_figure_set_stop(figure, stop_flag_is_set, &v->stop);
+        result = cgt_figure_begin(figure);
+        cgt_figure_set_stop(figure, NULL, NULL);
     }
-    const int result = view_draw_grow(v->draw, &v->camera, begins, picture, &v->stop, &left);
-    if (result) { /* an event has come, or an error */
-        v->scene_is_wrong |= result < 0;
+    if (!result)
+        result = cgt_figure_step(figure, v->grown > 1 ? v->grown / 2 : v->grown, &left);
+    if (!result)
+        result = cgt_figure_read(figure, &image);
+    const int failed = view_draw_tell(v->draw, result);
+    if (failed) { /* an event has come, or an error */
+        v->scene_is_wrong |= failed < 0;
         v->quality = VIEW_PLAIN;
         return 0.0;
     }

@@ -2,12 +2,13 @@
  * SPDX-License-Identifier: MIT
  *
  * What is this? What the viewer tells of a sphere or triangle; hiding, and colours by any column. */
+#define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-#include "data/element_symbols.h"
 #include "view/viewer_internal.h"
 
 /* ---- Selecting ---------------------------------------------------------------------------------------------- */
@@ -20,12 +21,14 @@ static void set_place(const viewer *v, view_pick *p)
 
 void viewer_click(viewer *v, float x, float y)
 {
-    view_hit hit;
+    cgt_figure *const figure = v->draw->figure;
+    cgt_figure_hit hit;
     if (!v->shown || v->scene_is_wrong || !(x >= 0.0f && y >= 0.0f && x < (float)v->width && y < (float)v->height) ||
-        view_draw_pick(v->draw, &v->camera, (uint32_t)x, (uint32_t)y, &hit))
+        view_draw_tell(v->draw, cgt_figure_set_camera(figure, &v->camera)) ||
+        view_draw_tell(v->draw, cgt_figure_pick(figure, (uint32_t)x, (uint32_t)y, &hit)))
         return;
     v->changed = 1;
-    if (!hit.is_file) {
+    if (!hit.is_data) {
         if (hit.is_hit)
             viewer_say(v, "a bond, an arrow, a line or the mesh: not of the file's own");
         return;
@@ -76,65 +79,28 @@ static void tell(lines *l, const char *format, ...)
     va_end(list);
 }
 
-/* Columns that have a line of their own. */
-static int is_told(const char *name)
-{
-    static const char *const names[] = {"id", "type", "x", "y", "z", "radius"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (strcmp(names[i], name) == 0)
-            return 1;
-    return 0;
-}
-
-static void tell_columns(const viewer *v, uint32_t k, lines *l)
+/* What the figure knows of it; of several, without columns. */
+static void tell_pick(const viewer *v, const view_pick *p, lines *l)
 {
     const cgt_trajectory_frame *const f = &v->shown->frame;
-    for (uint32_t i = 0; i < f->columns; i++) {
-        const cgt_trajectory_column *const c = &f->column[i];
-        if (!c->value || is_told(c->name))
-            continue;
-        if (l->count + 1 == l->most && i + 1 < f->columns) {
-            tell(l, "and %u columns more", f->columns - i);
+    const double *const o = f->origin;
+    const uint32_t own = 3, most = v->picks > 1 ? own : UINT32_MAX; /* lines without columns */
+    char text[16384];
+    cgt_figure_describe(v->draw->figure, p->element, text, sizeof text);
+    uint32_t left = 0;
+    for (const char *c = text; *c; c++)
+        left += *c == '\n';
+    left = left < most ? left : most;
+    for (const char *line = text; left; left--, line += strcspn(line, "\n") + 1) {
+        if (l->count >= own && l->count + 1 == l->most && left > 1) {
+            tell(l, "and %u columns more", left);
             return;
         }
-        const float value = c->value[k];
-        if (c->kind == CGT_TRAJECTORY_WORD && c->word && value >= 1.0f && value <= (float)c->words)
-            tell(l, "%s  %s", c->name, c->word[(uint32_t)value - 1]);
-        else
-            tell(l, "%s  %.7g", c->name, (double)value);
+        tell(l, "%.*s", (int)strcspn(line, "\n"), line);
     }
-    if (v->shown->speed && isfinite(v->shown->speed[k]))
-        tell(l, "speed  %.6g", (double)v->shown->speed[k]);
-}
-
-static void tell_sphere(const viewer *v, const view_pick *p, lines *l)
-{
-    const cgt_trajectory_frame *const f = &v->shown->frame;
-    const double *const o = f->origin;
-    const int digits = o[0] != 0.0 || o[1] != 0.0 || o[2] != 0.0 ? 15 : 7; /* what the numbers have */
-    const uint32_t k = p->element;
-    const float *const s = f->xyzr + 4 * (size_t)k;
-    char id[32] = "", kind[64] = "";
-    if (f->id)
-        snprintf(id, sizeof id, ", id %u", f->id[k]);
-    if (f->type)
-        snprintf(kind, sizeof kind, ", type %u", f->type[k]);
-    if (f->element && f->element[k])
-        snprintf(kind + strlen(kind), sizeof kind - strlen(kind), ", %s", element_symbol(f->element[k]));
-    tell(l, "sphere %u%s%s", k, id, kind);
-    tell(l, "at  %.*g, %.*g, %.*g", digits, o[0] + (double)s[0], digits, o[1] + (double)s[1], digits,
-         o[2] + (double)s[2]);
-    tell(l, "radius  %.6g", (double)s[3]);
-}
-
-static void tell_triangle(const viewer *v, const view_pick *p, lines *l)
-{
-    const cgt_trajectory_frame *const f = &v->shown->frame;
-    const double *const o = f->origin;
-    const uint32_t *const corner = f->index + 3 * (size_t)p->element;
-    tell(l, "triangle %u, vertices %u, %u, %u", p->element, corner[0], corner[1], corner[2]);
-    tell(l, "hit at  %.9g, %.9g, %.9g", o[0] + (double)p->place[0], o[1] + (double)p->place[1],
-         o[2] + (double)p->place[2]);
+    if (f->kind == CGT_TRAJECTORY_TRIANGLES)
+        tell(l, "hit at  %.9g, %.9g, %.9g", o[0] + (double)p->place[0], o[1] + (double)p->place[1],
+             o[2] + (double)p->place[2]);
 }
 
 static void between(const view_pick *a, const view_pick *b, double to[3])
@@ -173,17 +139,12 @@ uint32_t viewer_pick_lines(const viewer *v, char text[][128], uint32_t most)
         if (v->pick[i].element == UINT32_MAX) {
             tell(&l, "id %u is not in this frame", v->pick[i].id);
             there = 0;
-        } else if (v->shown->frame.kind == CGT_TRAJECTORY_SPHERES) {
-            tell_sphere(v, &v->pick[i], &l);
         } else {
-            tell_triangle(v, &v->pick[i], &l);
+            tell_pick(v, &v->pick[i], &l);
         }
         if (i + 1 < v->picks)
             tell(&l, "%s", "");
     }
-    const view_pick *const last = &v->pick[v->picks - 1];
-    if (v->picks == 1 && there && v->shown->frame.kind == CGT_TRAJECTORY_SPHERES)
-        tell_columns(v, last->element, &l);
     if (there && v->picks > 1) {
         tell(&l, "%s", "");
         tell_measures(v, &l);
@@ -192,14 +153,6 @@ uint32_t viewer_pick_lines(const viewer *v, char text[][128], uint32_t most)
 }
 
 /* ---- Looks -------------------------------------------------------------------------------------------------- */
-
-/* The frame at hand by the new looks. */
-static void set_again(viewer *v)
-{
-    v->scene_is_wrong = view_draw_set_frame(v->draw, v->shown, &v->camera) != 0;
-    v->moved = v->now;
-    v->outdated = v->changed = 1;
-}
 
 static const char one_color[] = "one colour";
 
@@ -231,9 +184,13 @@ void viewer_open_list(viewer *v)
     for (uint32_t i = 0; i < f->columns; i++)
         if (f->column[i].value)
             add_name(v, f->column[i].name);
-    for (uint32_t i = 0; i < v->list_count; i++)
-        if (strcmp(v->list_names[i], view_draw_color_name(v->draw)) == 0)
+    char *const color = view_draw_get(v->draw, cgt_figure_get_chosen, "color");
+    if (color)
+        color[strcspn(color, "\n")] = '\0';
+    for (uint32_t i = 0; i < v->list_count && color; i++)
+        if (strcmp(v->list_names[i], color) == 0)
             v->list_at = (int)i;
+    free(color);
 }
 
 void viewer_take_list(viewer *v, int row)
@@ -243,23 +200,18 @@ void viewer_take_list(viewer *v, int row)
         return;
     v->list_at = row;
     const char *const name = v->list_names[row];
-    if (view_draw_color(v->draw, v->shown, strcmp(name, one_color) == 0 ? "dcd3c4" : name) == 0)
-        set_again(v);
-}
-
-static void show(viewer *v, const char *condition)
-{
-    if (view_draw_show(v->draw, v->shown, condition))
-        return;
-    snprintf(v->condition, sizeof v->condition, "%s", condition);
-    set_again(v);
+    char *const range = view_draw_get(v->draw, cgt_figure_get, "range");
+    if (range && viewer_set(v, "color", strcmp(name, one_color) == 0 ? "dcd3c4" : name) == 0 && *range &&
+        strcmp(range, "symmetric\n") != 0)
+        viewer_unset(v, "range"); /* it was that of other values */
+    free(range);
 }
 
 void viewer_hide(viewer *v, int kind, int only)
 {
     const cgt_trajectory_frame *const f = v->shown ? &v->shown->frame : NULL;
-    char next[sizeof v->condition], one[64];
-    int length = snprintf(next, sizeof next, "%s", v->condition);
+    char condition[1024], one[64];
+    int length = 0;
     if (!f || f->kind != CGT_TRAJECTORY_SPHERES || !v->picks) {
         viewer_say(v, "click a sphere first");
         return;
@@ -275,20 +227,25 @@ void viewer_hide(viewer *v, int kind, int only)
             snprintf(one, sizeof one, "type %s %u", sign, f->type[k]);
         else
             snprintf(one, sizeof one, "%s %s %u", f->id ? "id" : "index", sign, f->id ? f->id[k] : k);
-        length += snprintf(next + length, sizeof next - (size_t)length, "%s%s", length ? " && " : "", one);
-        if (only || (size_t)length >= sizeof next)
+        length += snprintf(condition + length, sizeof condition - (size_t)length, "%s%s", length ? " && " : "", one);
+        if (only)
             break; /* one kind alone */
     }
-    if ((size_t)length >= sizeof next) {
-        viewer_say(v, "too much is hidden one by one: a shows all");
-        return;
-    }
-    v->picks = 0;
-    show(v, next);
+    if (!length || viewer_set(v, "show", condition) == 0)
+        v->picks = 0;
 }
 
+/* Those that the command line hides stay hidden. */
 void viewer_show_all(viewer *v)
 {
-    if (v->shown)
-        show(v, "");
+    if (!v->shown || viewer_unset(v, "show"))
+        return;
+    char *const shows = strdup(v->draw->shows);
+    for (char *line = shows; line && *line;) {
+        const size_t length = strcspn(line, "\n");
+        line[length] = '\0';
+        viewer_set(v, "show", line);
+        line += length + 1;
+    }
+    free(shows);
 }

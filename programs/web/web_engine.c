@@ -1,9 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What the page of programs/web asks of the libraries: a file's frames, a camera, pictures as bytes for a canvas, and
- * what a pixel shows. One worker calls it. Functions that return an int give 0, or -1 with a sentence in
- * web_message. */
+ * What the page of programs/web asks of the libraries: a file's frames, a camera, options of looks, pictures as bytes
+ * for a canvas, and what a pixel shows. One worker calls it. Functions that return an int give 0, or -1 with a sentence
+ * in web_message. */
+#define _POSIX_C_SOURCE 200809L
 #include <emscripten.h>
 #include <malloc.h>
 #include <stdio.h>
@@ -11,30 +12,22 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include <cgt/picture.h>
-#include <cgt/trajectory.h>
-
-#include "playback/survey_run.h"
-#include "figure_state.h"
-#include "data/element_symbols.h"
+#include "playback/figure_run.h"
 #include "view/view_camera.h"
-
-/* How much a picture takes: SHADED is that of a style which is not plain while the camera moves. */
-typedef enum web_quality { WEB_PLAIN, WEB_SHADED, WEB_FULL, WEB_QUALITIES } web_quality;
 
 static struct {
     cgt_context *context;
+    cgt_figure *figure;
     frame_source file;
-    int is_open;
-    cgt_figure figure; /* of the file */
-    frame_parts parts;
-    cgt_camera camera; /* of the hand */
-    cgt_picture *picture[WEB_QUALITIES];
-    picture_style style;
+    frame_sequence raw; /* its frames as they are */
+    uint64_t lead, frames;
+    cgt_figure_frame *shown; /* NULL: no file is open */
+    cgt_camera camera;       /* of the hand */
     uint32_t width, height;
     uint8_t *pixels;
     char message[1024];
-    char cut[1024]; /* why the file's frames end too early, until it is told; "": they do not */
+    char doubt[1100]; /* why the file's frames end too early, or options are left out, until it is told; "": nothing */
+    char *options;
 } web;
 
 EMSCRIPTEN_KEEPALIVE int web_seek(uint32_t number);
@@ -45,11 +38,11 @@ static int fail(const char *text)
     return -1;
 }
 
-static int fail_library(cgt_result result)
+static int check(cgt_result result)
 {
-    if (!cgt_context_get_error_message(web.context, web.message, sizeof web.message))
-        snprintf(web.message, sizeof web.message, "%s", cgt_get_result_string(result));
-    return -1;
+    if (result)
+        cgt_figure_get_error_message(web.figure, web.message, sizeof web.message);
+    return result ? -1 : 0;
 }
 
 /* Bytes of the heap that are in use. */
@@ -67,22 +60,81 @@ EMSCRIPTEN_KEEPALIVE int web_start(uint32_t threads)
         options.threads /= 2;
         result = cgt_context_create(&options, &web.context);
     }
-    return result ? fail_library(result) : (int)options.threads;
+    if (!result)
+        result = cgt_figure_create(web.context, &web.figure);
+    if (result && !cgt_context_get_error_message(web.context, web.message, sizeof web.message))
+        fail(cgt_get_result_string(result));
+    return result ? -1 : (int)options.threads;
 }
+
+/* ---- Options ------------------------------------------------------------------------------------------------ */
+
+static void print_text(FILE *to, const char *name, const char *text)
+{
+    fprintf(to, ",\"%s\":", name);
+    if (!text)
+        fputs("null", to);
+    else
+        fputc('"', to);
+    for (; text && *text; text++)
+        fprintf(to, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
+    if (text)
+        fputc('"', to);
+}
+
+/* What may be set, as an array of JSON: the members of cgt_figure_option. NULL: no memory. */
+EMSCRIPTEN_KEEPALIVE const char *web_options(void)
+{
+    static const char *const kinds[] = {"switch", "word", "number", "whole", "color", "text", "formula", "list"};
+    cgt_figure_option o;
+    size_t size;
+    FILE *const to = web.options ? NULL : open_memstream(&web.options, &size);
+    for (uint32_t i = 0; to && cgt_figure_get_option(i, &o); i++) {
+        fprintf(to, "%s{\"kind\":\"%s\"", i ? "," : "[", kinds[o.kind]);
+        print_text(to, "name", o.name);
+        print_text(to, "group", o.group);
+        print_text(to, "value", o.value);
+        print_text(to, "help", o.help);
+        print_text(to, "words", o.words);
+        print_text(to, "otherwise", o.otherwise);
+        if (o.kind == CGT_FIGURE_NUMBER || o.kind == CGT_FIGURE_WHOLE)
+            fprintf(to, ",\"low\":%.9g,\"high\":%.9g", o.low, o.high);
+        fprintf(to, ",\"optional\":%s,\"repeats\":%s}", o.is_optional ? "true" : "false", o.repeats ? "true" : "false");
+    }
+    if (to)
+        fputc(']', to);
+    if (to && fclose(to)) {
+        free(web.options);
+        web.options = NULL;
+    }
+    return web.options;
+}
+
+/* The camera of the hand, or that of an option which takes its place. */
+static int change(const char *name, const char *value, int is_set)
+{
+    if (web.shown && check(cgt_figure_set_camera(web.figure, &web.camera)))
+        return -1;
+    if (check(is_set ? cgt_figure_set(web.figure, name, value) : cgt_figure_unset(web.figure, name)))
+        return -1;
+    if (web.shown)
+        cgt_figure_get_camera(web.figure, &web.camera);
+    return 0;
+}
+
+/* Sets an option of the picture, NULL: without a value; or takes it back. What is refused changes nothing. */
+EMSCRIPTEN_KEEPALIVE int web_set(const char *name, const char *value) { return change(name, value, 1); }
+EMSCRIPTEN_KEEPALIVE int web_unset(const char *name) { return change(name, NULL, 0); }
 
 /* ---- A file ------------------------------------------------------------------------------------------------- */
 
 static void close_file(void)
 {
-    cgt_figure_close(&web.figure); /* its scene uses the frame's arrays */
-    cgt_frame_parts_free(&web.parts);
+    cgt_figure_frame_release(web.shown);
     frame_source_close(&web.file);
-    memset(&web.figure, 0, sizeof web.figure);
-    memset(&web.parts, 0, sizeof web.parts);
-    web.is_open = 0;
+    web.shown = NULL;
+    web.frames = 0;
 }
-
-static int fail_figure(void) { return fail(web.figure.message); }
 
 static int fail_file(void)
 {
@@ -96,143 +148,123 @@ static int survey_file(const char *path)
     const off_t large = 64 << 20; /* bytes */
     static const stop_flag never = 0;
     struct stat info;
-    const survey_plan plan = {.most = stat(path, &info) == 0 && info.st_size > large ? 4 : UINT64_MAX,
-                              .count = 1,
-                              .quiet = 1,
-                              .stop = &never,
-                              .context = web.context,
-                              .fit = cgt_figure_begin_fit(&web.figure)};
-    if (survey_run(&web.file, &plan, &web.figure.survey, web.message, sizeof web.message))
-        return -1;
-    web.figure.has_survey = 1;
-    return web.figure.survey.frames ? 0 : fail("the file has no frame");
+    survey_walk survey = {
+        .most = stat(path, &info) == 0 && info.st_size > large ? 4 : UINT64_MAX, .quiet = 1, .stop = &never};
+    double origin[3];
+    for (int turn = 0; turn < 2; turn++) {
+        web.message[0] = '\0';
+        if (figure_run_look(web.figure, &web.file, &survey, web.message, sizeof web.message))
+            return -1;
+        if (turn || !cgt_figure_get_origin(web.figure, origin))
+            break;
+        cgt_trajectory_set_origin(web.file.file, origin); /* all lies far from 0 */
+        if (frame_source_rewind(&web.file, web.message, sizeof web.message))
+            return -1;
+    }
+    if (survey.is_cut)
+        memcpy(web.doubt, web.message, sizeof web.message);
+    web.frames = survey.frames;
+    return survey.frames ? 0 : fail("the file has no frame");
 }
 
-static int set_scene(void)
+/* With a figure of its own, which has the settings. Its first frame that has something is the one that is drawn. */
+static int open_file(const char *path, const char *settings)
 {
-    cgt_figure *const figure = &web.figure;
-    const cgt_trajectory_frame *const f = &figure->sequence.frame;
-    if (cgt_coloring_apply(&figure->coloring, f, figure->sequence.speed))
-        return fail("out of memory for the colours");
-    if (cgt_figure_scene_prepare(figure, f, figure->coloring.index, &web.parts, web.message, sizeof web.message))
+    const cgt_trajectory_options options = {.threads = 1, .all_bonds = true, .leave_out_sites = true};
+    const size_t kept = 64 << 20; /* bytes of frames, which are not read again */
+    cgt_figure *figure;
+    close_file();
+    web.message[0] = web.doubt[0] = '\0';
+    if (cgt_figure_create(web.context, &figure))
+        return fail("out of memory");
+    cgt_figure_release(web.figure);
+    web.figure = figure;
+    cgt_figure_set_source(figure, strrchr(path, '/') ? strrchr(path, '/') + 1 : path);
+    if (check(cgt_figure_set_lines(figure, settings)) ||
+        frame_source_open(&web.file, &web.raw, &path, 1, &options, web.message, sizeof web.message))
+        return fail_file();
+    web.file.keep.most = kept;
+    web.file.looks_ahead = 1;
+    if (figure_run_want_all(&web.file, web.message, sizeof web.message) < 0 || survey_file(path) ||
+        check(cgt_figure_begin_keep(figure, &web.lead)))
+        return fail_file();
+    uint32_t number = 0;
+    do {
+        if (web_seek(number++))
+            return -1;
+    } while (!figure_run_shows(web.shown) && number < web.frames);
+    if (!figure_run_shows(web.shown) && web_seek(0))
         return -1;
-    figure->frame = f;
-    if (cgt_figure_scene_set(figure, &web.parts))
-        return fail_figure();
-    const cgt_result result = cgt_scene_commit(figure->scene);
-    return result ? fail_library(result) : 0;
+    return check(cgt_figure_get_camera(figure, &web.camera)) ? fail_file() : 0;
 }
 
-/* Light and style of cgt-render with this camera given. */
-static void set_looks(void)
+/* Opens a file. Options that do not fit it are left out, but for size and style. */
+EMSCRIPTEN_KEEPALIVE int web_open(const char *path)
 {
-    cgt_figure *const figure = &web.figure;
-    figure_options o;
-    cgt_figure_options_init(&o);
-    o.picture.style = web.style;
-    o.width = web.width;
-    o.height = web.height;
-    cgt_figure_options_finish(&o, web.message, sizeof web.message);
-    o.picture.ambient = o.picture.ambient < 0 ? cgt_style_get(web.style)->ambient : o.picture.ambient;
-    figure->options.picture = o.picture;
-    figure->options.width = o.width;
-    figure->options.height = o.height;
-    cgt_camera_path_fixed(&figure->path, &web.camera, 0.0);
-    figure->camera = web.camera;
-    cgt_figure_choose_light(figure);
+    char settings[4096], few[128] = "size = ", why[sizeof web.message];
+    const size_t length = cgt_figure_get(web.figure, NULL, settings, sizeof settings);
+    cgt_figure_get(web.figure, "size", few + strlen(few), 32);
+    if (cgt_figure_get(web.figure, "style", NULL, 0)) {
+        strcat(few, "style = ");
+        cgt_figure_get(web.figure, "style", few + strlen(few), 32);
+    }
+    if (length < sizeof settings && open_file(path, settings) == 0)
+        return 0;
+    if (length <= strlen(few))
+        return -1;
+    memcpy(why, web.message, sizeof why);
+    if (open_file(path, few))
+        return -1;
+    snprintf(web.doubt, sizeof web.doubt, "options are left out: %s", why);
+    return 0;
 }
 
 /* Of the file, as far as it can be read. */
-EMSCRIPTEN_KEEPALIVE uint32_t web_frames(void)
+EMSCRIPTEN_KEEPALIVE uint32_t web_frames(void) { return (uint32_t)web.frames; }
+
+EMSCRIPTEN_KEEPALIVE uint32_t web_frame(void)
 {
-    return (uint32_t)(web.figure.survey.has_total ? web.figure.survey.total : web.figure.survey.frames);
+    return web.shown ? (uint32_t)cgt_figure_frame_get_data(web.shown)->number : 0;
 }
 
-/* Opens a file and makes its first frame the one that is drawn. The size of pictures is set. */
-EMSCRIPTEN_KEEPALIVE int web_open(const char *path)
+EMSCRIPTEN_KEEPALIVE uint32_t web_primitives(void)
 {
-    const cgt_trajectory_options options = {.threads = 1, .leave_out_sites = true};
-    const size_t kept = 64 << 20; /* bytes of frames, which are not read again */
-    cgt_figure *const figure = &web.figure;
-    close_file();
-    web.message[0] = web.cut[0] = 0;
-    cgt_figure_options_init(&figure->options);
-    figure->options.width = web.width;
-    figure->options.height = web.height;
-    figure->source = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
-    figure->context = web.context;
-    if (cgt_figure_options_finish(&figure->options, web.message, sizeof web.message))
-        return fail_file();
-    if (cgt_figure_open(figure)) {
-        fail_figure();
-        return fail_file();
-    }
-    if (frame_source_open(&web.file, &figure->sequence, &path, 1, &options, web.message, sizeof web.message))
-        return fail_file();
-    web.file.keep.most = kept;
-    cgt_trajectory_get_origin(web.file.file, figure->origin);
-    if (survey_file(path))
-        return fail_file();
-    if (cgt_figure_choose_bulk_origin(figure)) {
-        cgt_trajectory_set_origin(web.file.file, figure->origin);
-        if (frame_source_rewind(&web.file, web.message, sizeof web.message) || survey_file(path))
-            return fail_file();
-    }
-    web.file.looks_ahead = 1;
-    if (figure->survey.is_cut && (frame_source_read(&web.file, web_frames(), web.cut, sizeof web.cut) >= 0 ||
-                                  frame_source_rewind(&web.file, web.message, sizeof web.message)))
-        return fail_file();
-    if (cgt_figure_move_cameras(figure) || cgt_figure_choose_colors(figure) || cgt_figure_choose_camera(figure) ||
-        cgt_figure_settle(figure)) {
-        fail_figure();
-        return fail_file();
-    }
-    web.camera = figure->path.start;
-    web.is_open = 1;
-    return web_seek(0);
+    return web.shown ? frame_primitives(cgt_figure_frame_get_data(web.shown)) : 0;
 }
 
 /* Makes frame `number` the one that is drawn. */
 int web_seek(uint32_t number)
 {
-    if (!web.is_open)
+    cgt_figure_frame *frame = NULL;
+    if (!web.file.file)
         return fail("no file is open");
-    if (web.figure.has_geometry && number == web.figure.sequence.frame.number)
+    if (web.shown && number == web_frame())
         return 0;
-    if (number < web.file.next && frame_source_rewind(&web.file, web.message, sizeof web.message))
-        return fail_file();
-    const int status = frame_source_read(&web.file, number, web.message, sizeof web.message);
+    const int status =
+        figure_run_keep(web.figure, &web.file, web.lead, number, &frame, web.message, sizeof web.message);
     if (status == 0)
         fail("there is no such frame");
-    return status <= 0 || set_scene() ? fail_file() : 0;
-}
-
-/* The camera that shows all of the frame; from where it looks stays. */
-EMSCRIPTEN_KEEPALIVE int web_fit(void)
-{
-    const cgt_trajectory_frame *const f = &web.figure.sequence.frame;
-    const int has_spheres = f->kind == CGT_TRAJECTORY_SPHERES;
-    const size_t stride = (has_spheres ? 4 : 3) * sizeof(float);
-    const cgt_spheres all = {.count = f->count,
-                             .centers = cgt_floats(has_spheres ? f->xyzr : f->position, stride),
-                             .radii = cgt_floats(has_spheres ? f->xyzr + 3 : NULL, has_spheres ? stride : 0)};
-    if (!web.is_open || cgt_camera_fit_spheres(&web.camera, web.width, web.height, &all))
-        return fail("there is nothing to fit the camera to");
+    if (status <= 0 || check(cgt_figure_show_frame(web.figure, frame))) {
+        cgt_figure_frame_release(frame);
+        return fail_file();
+    }
+    cgt_figure_frame_release(web.shown);
+    web.shown = frame;
     return 0;
 }
 
-EMSCRIPTEN_KEEPALIVE uint32_t web_frame(void) { return (uint32_t)web.figure.sequence.frame.number; }
-EMSCRIPTEN_KEEPALIVE uint32_t web_primitives(void) { return frame_primitives(&web.figure.sequence.frame); }
 /* The next thing that is doubtful about the file, or was chosen for it; NULL: there is none. */
 EMSCRIPTEN_KEEPALIVE const char *web_warning(void)
 {
-    if (web.is_open && web.cut[0]) {
-        memcpy(web.message, web.cut, sizeof web.message);
-        web.cut[0] = 0;
+    if (!web.shown)
+        return NULL;
+    if (web.doubt[0]) {
+        memcpy(web.message, web.doubt, sizeof web.message);
+        web.doubt[0] = '\0';
         return web.message;
     }
-    const char *const notice = web.is_open ? cgt_notices_take(&web.figure.notices) : NULL;
-    return notice || !web.is_open ? notice : cgt_trajectory_take_warning(web.file.file);
+    const char *const notice = cgt_figure_take_notice(web.figure);
+    return notice ? notice : cgt_trajectory_take_warning(web.file.file);
 }
 
 /* ---- Pictures ----------------------------------------------------------------------------------------------- */
@@ -240,101 +272,62 @@ EMSCRIPTEN_KEEPALIVE const char *web_warning(void)
 EMSCRIPTEN_KEEPALIVE int web_resize(uint32_t width, uint32_t height)
 {
     uint8_t *const pixels = malloc(4 * (size_t)width * height);
+    char size[32];
+    snprintf(size, sizeof size, "%ux%u", (unsigned)width, (unsigned)height);
     if (!pixels)
         return fail("out of memory for the picture");
     free(web.pixels);
     web.pixels = pixels;
     web.width = width;
     web.height = height;
-    for (int i = 0; i < WEB_QUALITIES; i++) {
-        cgt_picture_release(web.picture[i]);
-        web.picture[i] = NULL;
-    }
-    return 0;
+    return web_set("size", size);
 }
 
 EMSCRIPTEN_KEEPALIVE uint8_t *web_pixels(void) { return web.pixels; }
-EMSCRIPTEN_KEEPALIVE void web_style(int style) { web.style = (picture_style)style; }
 
-/* Those of cgt-render with this camera given, where the quality is full. */
-static cgt_picture_options settings_of(web_quality quality)
-{
-    set_looks();
-    cgt_picture_options s = cgt_figure_get_settings(&web.figure);
-    if (quality != WEB_FULL) {
-        s.lighting.ambient = 0;
-        s.lighting.lights[0].shadows = 0;
-    }
-    return s;
-}
-
-static cgt_picture *picture_of(web_quality quality)
-{
-    cgt_picture **const p = &web.picture[quality];
-    cgt_picture_options s = settings_of(quality);
-    const int is_new = !*p;
-    const cgt_result result = is_new ? cgt_picture_create(web.context, &s, p) : cgt_picture_set_options(*p, &s);
-    if (!result)
-        return *p;
-    cgt_picture_get_error_message(*p, web.message, sizeof web.message);
-    if (is_new) {
-        cgt_picture_release(*p);
-        *p = NULL;
-    }
-    return NULL;
-}
-
-static int finish(cgt_picture *p, cgt_result result)
-{
-    if (!result)
-        return 0;
-    if (!cgt_picture_get_error_message(p, web.message, sizeof web.message))
-        fail(cgt_get_result_string(result));
-    return -1;
-}
-
-/* Draws the frame: plain is complete; another style has neither shadows nor occlusion before web_grow. */
+/* Draws the frame by the hand's camera, as fast as it goes. */
 EMSCRIPTEN_KEEPALIVE int web_draw(void)
 {
-    const web_quality quality = web.style == STYLE_PLAIN ? WEB_PLAIN : WEB_SHADED;
-    if (!web.figure.scene)
-        return fail("no file is open");
-    cgt_picture *const p = picture_of(quality);
     const cgt_image image = {.bytes = web.pixels, .channels = 4};
-    cgt_look looks[FIGURE_LOOKS];
-    if (!p)
-        return -1;
-    const uint32_t count = cgt_figure_begin_picture(&web.figure, looks);
-    return finish(p, cgt_picture_draw(p, web.figure.scene, &web.camera, looks, count, &image, NULL));
+    if (!web.shown)
+        return fail("no file is open");
+    return check(cgt_figure_set_camera(web.figure, &web.camera)) ||
+                   check(cgt_figure_draw_quick(web.figure, CGT_FIGURE_PLAIN, 1, &image))
+               ? -1
+               : 0;
 }
 
-/* Adds a step of soft light to the picture; begins: the first. Returns how many are left, or -1. */
+/* Makes the picture of the options, then adds a step of soft light to it; begins: the first. Returns how many are left,
+ * or -1. */
 EMSCRIPTEN_KEEPALIVE int web_grow(int begins)
 {
-    uint32_t left = 0;
-    if (!web.figure.scene)
-        return fail("no file is open");
-    cgt_picture *const p = begins ? picture_of(WEB_FULL) : web.picture[WEB_FULL];
     const cgt_image image = {.bytes = web.pixels, .channels = 4};
-    cgt_look looks[FIGURE_LOOKS];
-    if (!p)
+    uint32_t left = 0;
+    if (!web.shown)
+        return fail("no file is open");
+    if ((begins && (check(cgt_figure_set_camera(web.figure, &web.camera)) || check(cgt_figure_begin(web.figure)))) ||
+        check(cgt_figure_step(web.figure, 1, &left)) || check(cgt_figure_read(web.figure, &image)))
         return -1;
-    const uint32_t count = cgt_figure_begin_picture(&web.figure, looks);
-    cgt_result result = begins ? cgt_picture_begin(p, web.figure.scene, &web.camera, looks, count, NULL) : CGT_OK;
-    if (!result)
-        result = cgt_picture_step(p, 1, &left);
-    if (!result)
-        result = cgt_picture_read(p, &image);
-    return finish(p, result) ? -1 : (int)left;
+    return (int)left;
 }
 
 /* ---- The camera --------------------------------------------------------------------------------------------- */
+
+/* The camera that shows all of the frame; from where it looks stays. */
+EMSCRIPTEN_KEEPALIVE int web_fit(void)
+{
+    if (check(cgt_figure_set_camera(web.figure, &web.camera)) || check(cgt_figure_fit(web.figure)))
+        return -1;
+    return check(cgt_figure_get_camera(web.figure, &web.camera));
+}
 
 /* By pixels of the picture. */
 EMSCRIPTEN_KEEPALIVE void web_turn(float right, float down)
 {
     const float turn = 4.0f / (float)web.height;
-    view_camera_turn(&web.camera, web.camera.target, web.figure.options.up, right * turn, down * turn);
+    float up[3];
+    if (cgt_figure_get_up(web.figure, up) == CGT_OK)
+        view_camera_turn(&web.camera, web.camera.target, up, right * turn, down * turn);
 }
 
 EMSCRIPTEN_KEEPALIVE void web_pan(float right, float down) { view_camera_pan(&web.camera, right, -down, web.height); }
@@ -351,13 +344,9 @@ EMSCRIPTEN_KEEPALIVE void web_zoom(float x, float y, float factor)
 /* As -c of cgt-render takes it. */
 EMSCRIPTEN_KEEPALIVE const char *web_camera(void)
 {
-    const cgt_camera *const c = &web.camera;
-    const double *const o = web.figure.origin;
-    const int digits = o[0] != 0.0 || o[1] != 0.0 || o[2] != 0.0 ? 15 : 9;
-    snprintf(web.message, sizeof web.message, "%.*g,%.*g,%.*g,%.*g,%.*g,%.*g,%.9g,%.9g,%.9g,%.9g", digits,
-             o[0] + (double)c->eye[0], digits, o[1] + (double)c->eye[1], digits, o[2] + (double)c->eye[2], digits,
-             o[0] + (double)c->target[0], digits, o[1] + (double)c->target[1], digits, o[2] + (double)c->target[2],
-             (double)c->up[0], (double)c->up[1], (double)c->up[2], (double)c->fov);
+    cgt_figure_set_camera(web.figure, &web.camera);
+    cgt_figure_get_chosen(web.figure, "camera", web.message, sizeof web.message);
+    web.message[strcspn(web.message, "\n")] = '\0';
     return web.message;
 }
 
@@ -366,33 +355,21 @@ EMSCRIPTEN_KEEPALIVE const char *web_camera(void)
 /* A sentence of it in web_message, "" where there is nothing. Returns the primitive's number, or -1. */
 EMSCRIPTEN_KEEPALIVE int web_pick(uint32_t x, uint32_t y)
 {
-    const cgt_trajectory_frame *const f = &web.figure.sequence.frame;
-    cgt_single_ray ray = {0};
-    cgt_hit hit;
-    web.message[0] = 0;
-    if (!web.figure.scene)
+    const int most = 3; /* lines without columns */
+    cgt_figure_hit hit;
+    char text[1024];
+    web.message[0] = '\0';
+    if (!web.shown || cgt_figure_set_camera(web.figure, &web.camera) || cgt_figure_pick(web.figure, x, y, &hit) ||
+        !hit.is_data)
         return -1;
-    cgt_result result = cgt_camera_get_ray(&web.camera, web.width, web.height, x, y, ray.org, ray.dir);
-    if (!result)
-        result = cgt_trace_ray(web.figure.scene, &ray, &hit, NULL);
-    if (result)
-        return fail_library(result);
-    if (hit.primitive == CGT_INVALID_ID)
-        return -1;
-    const uint32_t k = hit.primitive;
-    int n = snprintf(web.message, sizeof web.message, "%s %u",
-                     f->kind == CGT_TRAJECTORY_SPHERES ? "sphere" : "triangle", k);
-    if (f->kind == CGT_TRAJECTORY_SPHERES) {
-        const float *const s = f->xyzr + 4 * (size_t)k;
-        if (f->id)
-            n += snprintf(web.message + n, sizeof web.message - (size_t)n, ", id %u", f->id[k]);
-        if (f->element && f->element[k])
-            n += snprintf(web.message + n, sizeof web.message - (size_t)n, ", %s", element_symbol(f->element[k]));
-        else if (f->type)
-            n += snprintf(web.message + n, sizeof web.message - (size_t)n, ", type %u", f->type[k]);
-        snprintf(web.message + n, sizeof web.message - (size_t)n, ", at %.7g, %.7g, %.7g, radius %.6g",
-                 web.figure.origin[0] + (double)s[0], web.figure.origin[1] + (double)s[1],
-                 web.figure.origin[2] + (double)s[2], (double)s[3]);
-    }
-    return (int)k;
+    cgt_figure_describe(web.figure, hit.element, text, sizeof text);
+    size_t used = 0;
+    const char *c = text;
+    for (int line = 0; line < most && *c; line += *c++ == '\n')
+        if (*c == '\n' && c[1] && line + 1 < most)
+            used += (size_t)snprintf(web.message + used, sizeof web.message - used, ", ");
+        else if (*c != '\n' && !(*c == ' ' && c[1] == ' '))
+            web.message[used++] = *c;
+    web.message[used] = '\0';
+    return (int)hit.element;
 }

@@ -6,7 +6,6 @@
 (() => {
     'use strict';
     const script = typeof document !== 'undefined' ? document.currentScript.src : self.location.href;
-    const PLAIN = 2, SOFT = 0; // picture_style
 
     // Bytes, unpacked where they are gzip's.
     async function unpack(bytes) {
@@ -40,7 +39,7 @@
         const message = () => cgt.UTF8ToString(cgt._web_message());
         const tell = (type, rest, transfer) => self.postMessage({type, ...rest}, transfer || []);
         let width = 0, height = 0, left = 0, begins = false, moved = 0, playing = false, due = 0, frames = 0;
-        let rate = 30, soft = false, isOpen = false, outdated = false;
+        let rate = 30, isOpen = false, outdated = false;
         let scheduled = false, timer = 0, spare = [], pending = 0;
 
         const fail = () => { isOpen = playing = false; left = 0; tell('error', {text: message()}); };
@@ -74,7 +73,7 @@
                     return fail();
                 outdated = false;
                 moved = now;
-                left = soft ? -1 : 0; // not begun
+                left = -1; // not begun
                 begins = true;
                 show(performance.now() - now);
             } else if (left !== 0 && !playing) {
@@ -140,7 +139,14 @@
                     cgt._web_fit();
                 outdated = isOpen;
             },
-            style: (m) => { soft = m.style !== PLAIN; cgt._web_style(m.style); outdated = isOpen; },
+            options: () => tell('options', {rows: JSON.parse(cgt.UTF8ToString(cgt._web_options()))}),
+            set: (m) => { // without a value: null; undefined takes it back
+                const isSet = m.value !== undefined;
+                const status = isSet ? cgt.ccall('web_set', 'number', ['string', 'string'], [m.name, m.value])
+                    : cgt.ccall('web_unset', 'number', ['string'], [m.name]);
+                tell('set', {text: status < 0 ? message() : ''});
+                outdated = isOpen;
+            },
             turn: (m) => { cgt._web_turn(m.x, m.y); outdated = isOpen; },
             pan: (m) => { cgt._web_pan(m.x, m.y); outdated = isOpen; },
             zoom: (m) => { cgt._web_zoom(m.x, m.y, m.factor); outdated = isOpen; },
@@ -230,6 +236,8 @@
                 send('shown', {buffer: m.buffer}, [m.buffer]);
             },
             picked: (m) => { page.picked = m.id; say(m.text || ''); },
+            set: (m) => { if (m.text) say(m.text); },
+            options: () => {},
             camera: () => {},
             memory: () => {},
         };
@@ -362,7 +370,7 @@
         $('time').oninput = () => { sliding = true; playing = false; $('play').textContent = 'Play';
                                     send('seek', {frame: +$('time').value}); };
         $('time').onchange = () => { sliding = false; };
-        $('style').onchange = () => send('style', {style: $('style').value === 'plain' ? PLAIN : SOFT});
+        $('style').onchange = () => send('set', {name: 'style', value: $('style').value});
         $('fit').onclick = () => send('fit');
         $('file').onchange = () => { for (const f of $('file').files) openFile(f.name, f); };
         addEventListener('dragover', (e) => e.preventDefault());
@@ -383,7 +391,7 @@
         });
 
         resize();
-        send('style', {style: $('style').value === 'plain' ? PLAIN : SOFT});
+        send('set', {name: 'style', value: $('style').value});
         if (!new URLSearchParams(location.search).has('empty'))
             openFile('pour.lammpstrj.gz',
                      new Blob([Uint8Array.from(atob($('shipped').textContent), (c) => c.charCodeAt(0))]));

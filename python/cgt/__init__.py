@@ -27,15 +27,15 @@ from ._native import (
     Error, InUse, InvalidArgument, NotCommitted, OutOfMemory, Stopped, ThreadsRefused, TooLarge, Unsupported,
 )
 from ._frames import camera_rays
-from ._bonds import half_bonds
 from .context import Context, variants, version
 from .geometry import Camera, Capsules, Light, Spheres, Triangles
 from .results import INVALID_ID, AllHits, Fields, Frame, HitRows, Hits, SingleHit
 from .scene import Scene
 
 if TYPE_CHECKING:
-    from . import colors, research, trimesh
-    from ._show import fit_camera, show
+    from . import colors, figure, research, trimesh
+    from ._show import show
+    from .figure import Figure
     from .picture import Look, Material, Picture, find_bodies
     from .trajectory import ReadError, Trajectory, TrajectoryFrame, read, sort_series
 
@@ -45,14 +45,15 @@ _LATER = {
     **dict.fromkeys(("read", "sort_series", "ReadError", "Trajectory", "TrajectoryFrame"),
                     (".trajectory", "._trajectory")),
     **dict.fromkeys(("Look", "Material", "Picture", "find_bodies"), (".picture", "._picture")),
-    **dict.fromkeys(("fit_camera", "show"), ("._show", "._picture")), "colors": (".colors", "._picture"),
+    "show": ("._show", "._figure"), "Figure": (".figure", "._figure"), "figure": (".figure", "._figure"),
+    "colors": (".colors", "._picture"),
     "trimesh": (".trimesh", "._definitions"), "mpi": (".mpi", "._mpi"),
 }
 __all__ = [
-    "AllHits", "Camera", "Capsules", "Context", "Error", "Fields", "Frame", "HitRows", "Hits", "INVALID_ID", "InUse",
-    "InvalidArgument", "Light", "Look", "Material", "NotCommitted", "OutOfMemory", "Picture", "ReadError", "Scene",
+    "AllHits", "Camera", "Capsules", "Context", "Error", "Fields", "Figure", "Frame", "HitRows", "Hits", "INVALID_ID",
+    "InUse", "InvalidArgument", "Light", "Look", "Material", "NotCommitted", "OutOfMemory", "Picture", "ReadError", "Scene",
     "SingleHit", "Spheres", "Stopped", "ThreadsRefused", "TooLarge", "Trajectory", "TrajectoryFrame", "Triangles",
-    "Unsupported", "camera_rays", "colors", "find_bodies", "fit_camera", "half_bonds", "read", "show", "sort_series",
+    "Unsupported", "camera_rays", "colors", "figure", "find_bodies", "read", "show", "sort_series",
     "variants", "version",
 ]
 
@@ -63,7 +64,7 @@ if not TYPE_CHECKING:  # to which a name that is not there is an error
         if name not in _LATER:
             raise AttributeError(f"module 'cgt' has no attribute {name!r}")
         module = importlib.import_module(_LATER[name][0], __name__)
-        found = globals()[name] = module if name in ("colors", "trimesh", "mpi") else getattr(module, name)
+        found = globals()[name] = module if name in ("colors", "figure", "trimesh", "mpi") else getattr(module, name)
         return found
 
 

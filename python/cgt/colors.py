@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
-"""Colours of values, types and elements, as cgt-render has them, and what arguments for colours may be.
+"""Colours of values, as cgt-render has them, and what arguments for colours may be.
 
 Colours are names of CSS, one of "rgbcmykw", "#rrggbb", bytes (uint8), or numbers from 0 to 1; all of them sRGB, as on a
 screen, unless `linear` says that numbers are shares of light.
@@ -8,7 +8,7 @@ screen, unless `linear` says that numbers are shares of light.
 >>> import cgt
 >>> cgt.colors.maps()[0]
 'viridis'
->>> cgt.colors.by_value([0.0, 0.5, 1.0], low=0, high=1).shape
+>>> cgt.colors.palette()[cgt.colors.entries([0.0, 0.5, 1.0], low=0, high=1)].shape
 (3, 3)
 """
 from __future__ import annotations
@@ -19,7 +19,7 @@ from typing import Optional, Tuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._arrays import F4, F8, U1, U2, U4, array_of, check_shape, numbers
+from ._arrays import F4, F8, U1, U2, array_of, check_shape, numbers
 from ._native import InvalidArgument, load_part, real
 
 ffi, lib = load_part("picture")
@@ -52,11 +52,21 @@ _NAMES = {word[:-6]: word[-6:] for word in """
 _OF_BYTE = np.array([lib.cgt_srgb_decode(code) for code in range(256)], F4)
 
 
+def code_of(text: str) -> Optional[str]:
+    """A colour's name or code as "rrggbb"; None: it is neither."""
+    if re.fullmatch("#[0-9a-fA-F]{6}|#[0-9a-fA-F]{3}", text):
+        return text[1:] if len(text) == 7 else "".join(2 * digit for digit in text[1:])
+    return _NAMES.get(text.lower().replace(" ", ""))
+
+
+def code_of_light(linear: np.ndarray) -> str:
+    """A linear colour as "rrggbb"."""
+    return "".join(f"{lib.cgt_srgb_encode(x):02x}" for x in linear.tolist())
+
+
 def _of_text(name: str, text: str) -> list:
     """Bytes of a colour's name or code."""
-    code = _NAMES.get(text.lower().replace(" ", ""))
-    if code is None and re.fullmatch("#[0-9a-fA-F]{6}|#[0-9a-fA-F]{3}", text):
-        code = text[1:] if len(text) == 7 else "".join(2 * digit for digit in text[1:])
+    code = code_of(text)
     if code is None:
         raise InvalidArgument(f"{name}: {text!r}: must be a colour's name, or #rrggbb")
     return [int(code[k:k + 2], 16) for k in (0, 2, 4)]
@@ -139,25 +149,3 @@ def entries(values: ArrayLike, low: Optional[float] = None, high: Optional[float
     low, high = ends[0] if low is None else low, ends[1] if high is None else high
     share = (np.where(known, values, low) - low) / (high - low if high > low else np.inf)
     return np.where(known, np.clip(share, 0, 1) * (STEPS - 1) + 0.5, STEPS).astype(U2)
-
-
-def by_value(values: ArrayLike, map: Optional[str] = None, low: Optional[float] = None,
-             high: Optional[float] = None) -> np.ndarray:
-    """The colours of values by a map, (n, 3) float32; arguments are those of `palette` and `entries`."""
-    return palette(map)[entries(values, low, high)]
-
-
-def _of_kinds(of, name, kinds) -> np.ndarray:
-    values, place = np.unique(numbers(name, kinds, U4, ("n",)), return_inverse=True)
-    return np.array([_color(of, int(v)) for v in values], F4).reshape(-1, 3)[place.reshape(-1)]
-
-
-def by_type(types: ArrayLike) -> np.ndarray:
-    """The colours of types, (n,) int from 1 on: eight that everyone can tell apart and eight more, again and
-    again: (n, 3) float32."""
-    return _of_kinds(lib.cgt_get_type_color, "types", types)
-
-
-def by_element(numbers: ArrayLike) -> np.ndarray:
-    """The colours of elements, (n,) atomic numbers, Jmol's; 0 is unknown, a light pink: (n, 3) float32."""
-    return _of_kinds(lib.cgt_get_element_color, "numbers", numbers)

@@ -333,6 +333,19 @@ class Trajectory(Plain):
             found = lib.cgt_trajectory_get_mesh(self._open)
             return None if found == ffi.NULL else SimpleNamespace(**struct_values(found[0], ffi))
 
+    def _prepare(self, text: str, origin: Optional[Sequence[float]]) -> None:
+        """Before a figure reads it all: columns that its options' texts name, and places less an origin."""
+        if not self.can_rewind or (first := self._frame(0)) is None:
+            return
+        more = (name for name in first.column_names if name in text and name not in self._given["columns"])
+        names = [_c_path("columns", name) for name in (*self._given["columns"], *more)]
+        with self._gate.alone:
+            self._check(lib.cgt_trajectory_want_columns(self._open, ffi.new("const char *[]", names), len(names)))
+            if origin is not None:
+                lib.cgt_trajectory_set_origin(self._open, origin)
+            self._check(lib.cgt_trajectory_rewind(self._open))
+            self._next = 0
+
     def close(self) -> None:
         """Closes the file; `InUse` if a call is using it."""
         with self._gate.alone:

@@ -4,10 +4,8 @@
 import os
 import sys
 
-import numpy as np
-
 try:
-    from cgt import read, show
+    from cgt import Figure, read, show
 except ImportError as error:
     print(f"left out: {error}")
     sys.exit(77)
@@ -15,16 +13,14 @@ except ImportError as error:
 folder = sys.argv[1] if len(sys.argv) > 1 else "."
 data = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "data")
 
-with read(os.path.join(data, "caffeine.xyz")) as molecules:
+with read(os.path.join(data, "caffeine.xyz"), all_bonds=True) as molecules:
     frame = molecules[0]
-    show(frame, outline=1.5, width=480, height=360).save(os.path.join(folder, "show_a_file_molecule.png"))
-    distances = np.linalg.norm(frame.positions[:, None] - frame.positions, axis=-1)
-    pairs = np.argwhere(np.triu(distances < 1.6, 1))  # the file has no bonds
-    picture = show(frame, 0.35, bonds=pairs, bond_radius=0.13, outline=1.5, width=480, height=360)
-    picture.save(os.path.join(folder, "show_a_file_sticks.png"))
+    show(frame, outline=1.5, size=(480, 360)).save(os.path.join(folder, "show_a_file_molecule.png"))
+    figure = show(frame, bonds=True, radius_scale=0.25, style="paper", size=(480, 360))
+    figure.save(os.path.join(folder, "show_a_file_sticks.png"))
 
 with read(os.path.join(data, "pour2k.lammpstrj")) as run:
+    figure = Figure(size=(480, 270), color="speed", colorbar="speed", box=True).survey(run)  # one camera, one scale
     for frame in run[::25]:
         if len(frame):
-            picture = show(frame, width=480, height=270, ambient=16)
-            picture.save(os.path.join(folder, f"show_a_file_{frame.number:02}.png"))
+            figure.show(frame).save(os.path.join(folder, f"show_a_file_{frame.number:02}.png"))

@@ -98,7 +98,8 @@ def junk():
 def sweep(function, *good, **named):
     """Puts junk in place of each argument, one after another: results or exceptions, all the same."""
     parameters = inspect.signature(function).parameters
-    places = list(range(len(good))) + [n for n, p in parameters.items() if p.kind == p.KEYWORD_ONLY or n in named]
+    only = [n for n, p in parameters.items() if p.kind == p.KEYWORD_ONLY and n not in named]
+    places = [*range(len(good)), *only, *named]
     for place in places:
         for value in junk():
             arguments, words = list(good), dict(named)

@@ -42,7 +42,6 @@ def junk_for_geometries():
     sweep(CAMERA.fit, cgt.Spheres(x, r), 64, 48)
     sweep(cgt.Camera().orbit, 5)
     sweep(CAMERA.key_light, 64, 48)
-    sweep(cgt.half_bonds, x, [[0, 1]], np.eye(3), (1, 1, 1))
 
 
 @case()
@@ -73,6 +72,22 @@ def junk_for_frames():
 
 
 @case()
+def junk_for_figures():
+    (x, r), (vertices, corners) = ball(), mesh()
+    figure = cgt.Figure(size=(8, 6), style="plain")
+    more = {"columns": {"v": r}, "bonds": [[0, 1]], "cell": np.eye(3), "pbc": True, "corner": (0, 0, 0), "unwrapped": 0}
+    sweep(figure.show, x, radius=r, number=1, step=2, time=0.5, angstrom=1.0, **more)
+    sweep(figure.survey, [x, x], radius=0.5, **more)
+    sweep(figure.survey, (vertices, corners))
+    for name in ("id", "type", "element", "velocity", "rgb", "normal", "v"):
+        sweep(lambda values, name=name: cgt.Figure(size=(8, 6)).show(x, columns={name: values}).draw(), np.ones(9))
+    sweep(figure.set_mesh, (vertices, corners))
+    sweep(cgt.show, x, r, "red", size=(8, 6), bonds=True, title="a")
+    sweep(figure.set, color="red", size=(8, 6), camera=CAMERA, show=["x > 0"], range=(0, 1), type_color={1: "red"})
+    figure.set(**{**figure.options, "size": (8, 6)}).show(x).draw()
+
+
+@case()
 def junk_for_pictures():
     scene = scene_of(cgt.Spheres(*ball()), cgt.Triangles(*mesh()))
     sweep(cgt.Picture, 8, 6)
@@ -89,7 +104,7 @@ def junk_for_pictures():
             picture.draw(scene, CAMERA, {1: look})
 
         sweep(draw, 0)
-    for call in (cgt.colors.palette, cgt.colors.entries, cgt.colors.by_type, cgt.colors.by_element):
+    for call in (cgt.colors.palette, cgt.colors.entries):
         sweep(call, 0)
 
 

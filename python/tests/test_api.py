@@ -30,13 +30,23 @@ FUNCTIONS_LEFT_OUT = {
     "cgt_picture_draw": "begin, step and read are it",
     "cgt_picture_set_options": "another Picture",
     **{"cgt_camera_fit_" + name: "Camera.fit" for name in ("create", "release", "add", "add_box", "apply")},
-    "cgt_srgb_encode": "for pixels in C",
+    "cgt_srgb_from_linear": "cgt_srgb_encode, for colours that are given",
+    **{f"cgt_get_{kind}_color": "Figure has the colours of types and elements" for kind in ("type", "element")},
+    # cgt-figure
+    "cgt_figure_set": "set_lines, all at once", "cgt_figure_set_source": "messages of data, which have no path",
+    "cgt_figure_needs_frame": "a survey looks at all that it is given",
+    "cgt_figure_set_stop": "pictures end by themselves",
+    "cgt_figure_get_chosen": "Figure.camera; another figure chooses anew", "cgt_figure_get_up": "Figure.camera",
+    "cgt_figure_describe": "the caller has the columns of what pick finds",
+    **{f"cgt_figure_{name}": "for windows in C" for name in (
+        "begin", "step", "read", "begin_keep", "keep", "show_frame", "frame_get_bytes", "frame_get_data",
+        "frame_release")},
     # cgt-mpi
     "cgt_mpi_draw_rows": "rows come to rank 0", "cgt_mpi_get_scene": "a scene of one process has all calls",
     # cgt-trajectory
     "cgt_trajectory_open": "open_series of one path",
     "cgt_trajectory_find_column": "TrajectoryFrame.columns is a dictionary",
-    "cgt_trajectory_set_follow": "for viewers; open it anew", "cgt_trajectory_set_origin": "open it anew",
+    "cgt_trajectory_set_follow": "for viewers; open it anew",
     "cgt_trajectory_get_origin": "TrajectoryFrame.origin",
     **{"cgt_trajectory_writer_" + name: "cgt-convert writes .frames"
        for name in ("open", "add", "open_triangles", "add_vertices", "finish", "close", "get_error_message")},
@@ -73,6 +83,8 @@ FIELDS_LEFT_OUT = {
     "cgt_picture_work.stop": "a picture stops between its steps", "cgt_picture_work.stop_user": "goes with stop",
     "cgt_image.row_stride": "pixels are an array of the picture", "cgt_image.alpha": "pixels[..., 3]",
     "cgt_image.dpi": "Picture.save has it",
+    # cgt-figure
+    "cgt_figure_data.frame": "frames of cgt.read are given by their arrays",
     # cgt-trajectory
     "cgt_trajectory_options.max_count": "the default is the most that the library takes",
     "cgt_trajectory_options.stop": "follow ends by itself", "cgt_trajectory_options.stop_user": "goes with stop",
@@ -86,7 +98,7 @@ def parts():
     """The definitions and the library of each part that is installed, and where its structs are."""
     yield _native.ffi, _native.lib, STRUCTS
     known = dict(STRUCTS)
-    for name in ("picture", "trajectory", "mpi"):
+    for name in ("picture", "figure", "trajectory", "mpi"):
         try:
             ffi, lib = _native.load_part(name)
             module = importlib.import_module("cgt." + name)
@@ -96,6 +108,10 @@ def parts():
             places = {name: [module.Picture] for name in ("options", "light", "lighting", "layer", "style", "bounces", "work")}
             more = {"cgt_look": [module.Look], "cgt_material": [module.Material], "cgt_image": [module.Picture],
                     "cgt_linear_pixel": [module.Picture]}
+        elif name == "figure":
+            data = [importlib.import_module("cgt._figure_data").FigureData]
+            places = {name: data for name in ("column", "points", "triangles", "bonds", "box", "data")}
+            more = {"cgt_figure_option": ALL, "cgt_figure_hit": ALL}
         elif name == "mpi":
             places, more = {"options": [module.Job], "geometry": [module.Job, geometry]}, {}
         else:
@@ -110,7 +126,8 @@ def package_text():
     folder = os.path.dirname(cgt.__file__)
     texts = []
     for name in sorted(os.listdir(folder)):
-        if name.endswith(".py") and name not in ("_definitions.py", "_picture.py", "_trajectory.py", "_mpi.py"):
+        if name.endswith(".py") and name not in ("_definitions.py", "_picture.py", "_figure.py", "_trajectory.py",
+                                                   "_mpi.py"):
             with open(os.path.join(folder, name), encoding="utf-8") as file:
                 texts.append(file.read())
     return "".join(texts)
@@ -153,7 +170,7 @@ def test_all_fields_are_used_or_left_out():
                     missing.append(full)
     assert not missing, f"give these to Python, or tell in FIELDS_LEFT_OUT why not: {missing}"
     assert len(seen) > 20
-    if len(list(parts())) == 4:
+    if len(list(parts())) == 5:
         assert not set(FIELDS_LEFT_OUT) - seen, "no longer there"
 
 
@@ -196,10 +213,10 @@ def test_examples_have_the_types_that_they_use():
 def test_a_type_checker_knows_names_and_types(tmp_path):
     program = tmp_path / "program.py"
     program.write_text("import cgt\ncgt.shwo(1)\ncgt.Camera(fov='wide')\nreveal_type(cgt.show([[0, 0, 0]]))\n"
-                       "reveal_type(cgt.read('a')[0].step)\ncgt.trimesh, cgt.colors.by_type, cgt.research\n")
+                       "reveal_type(cgt.read('a')[0].step)\ncgt.trimesh, cgt.colors.palette, cgt.research\n")
     lines = mypy(program).stdout.splitlines()
     assert len([line for line in lines if "error:" in line]) == 2, lines
-    for words in (':2: error: Module has no attribute "shwo"', ":3: error: Argument", 'type is "cgt.picture.Picture"',
+    for words in (':2: error: Module has no attribute "shwo"', ":3: error: Argument", 'type is "cgt.figure.Figure"',
                   'type is "builtins.int"'):
         assert any(words in line for line in lines), (words, lines)
 
@@ -209,12 +226,12 @@ def test_all_names_are_found():
     child = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     listed, imported = (line.split() for line in child.stdout.splitlines())
     assert set(cgt.__all__) < set(listed) and set(cgt.__all__) <= set(imported)
-    assert {"show", "read", "Picture", "colors", "trimesh", "research"} <= set(listed) and "importlib" not in listed
+    assert {"show", "read", "Figure", "Picture", "colors", "trimesh", "research"} <= set(listed) and "importlib" not in listed
     for name in cgt.__all__:
         thing = getattr(cgt, name)
         assert thing is not None and (not callable(thing) or thing.__doc__), name
 
 
 def test_help_begins_with_what_a_call_does():
-    for call in (cgt.show, cgt.Scene.trace_rays, cgt.Scene.trace_hit_rows, cgt.Picture.__init__, cgt.half_bonds):
+    for call in (cgt.show, cgt.Figure.movie, cgt.Scene.trace_rays, cgt.Scene.trace_hit_rows, cgt.Picture.__init__):
         assert len(str(inspect.signature(call))) < 1000 and "_typing" not in str(inspect.signature(call))

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 try:
-    import cgt.picture
+    import cgt.figure
     import cgt.trajectory
 except ImportError as error:
     pytest.skip(str(error), allow_module_level=True)
@@ -40,7 +40,7 @@ def test_the_code_of_the_guide_runs(tmp_path, monkeypatch, capsys):
     r = np.random.default_rng(1)
     positions, corners = r.uniform(-1, 1, (1000, 3)), np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
     shown = []
-    monkeypatch.setattr(cgt, "show", functools.partial(cgt.show, width=96, height=54), raising=False)
+    monkeypatch.setattr(cgt, "show", functools.partial(cgt.show, size=(96, 54)), raising=False)
     names = {
         "positions": positions, "radii": 0.1, "colors": r.uniform(size=(1000, 3)), "velocities": positions,
         "pairs": [[0, 1], [1, 2]], "window": SimpleNamespace(show=lambda pixels: shown.append(pixels.copy())),
@@ -51,12 +51,13 @@ def test_the_code_of_the_guide_runs(tmp_path, monkeypatch, capsys):
         blocks = re.findall(r"```python\n(.*?)```", file.read(), re.DOTALL)
     assert len(blocks) >= 6
     for block in blocks:
-        for long, short in (("range(100)", "range(2)"), ("100_000", "1000"), ("1280, 720", "128, 72")):
+        for long, short in (("range(100)", "range(2)"), ("100_000", "1000"), ("1280, 720", "128, 72"), ("640, 480", "64, 48")):
             block = block.replace(long, short)
         try:
             exec(compile(block, "docs/guide/python.md", "exec"), names)
         except cgt.ReadError as error:
             assert "lammpstrj.gz" in str(error) and "libarchive" in str(error)  # a build without it
-    assert (tmp_path / "caffeine.png").stat().st_size > 1000
+    assert (tmp_path / "caffeine.png").stat().st_size > 1000 and (tmp_path / "first.png").stat().st_size > 1000
+    assert names["pixels"].shape == (48, 64, 3) and names["pixels"].std() > 5
     assert len(shown) == 15 and not np.array_equal(shown[0], shown[-1])
     assert names["index_ray"].tolist() == [0, 0] and capsys.readouterr().out.count("(2, 3)") in (0, 3)

@@ -1,10 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Pictures; left out where libcgt was installed without them."""
-import os
 import struct
-import sys
-import types
 import zlib
 
 import numpy as np
@@ -291,27 +288,21 @@ def test_lights_without_shadows(scene):
     assert dark[30, 66, 2] < 20 < lit[30, 66, 2]
 
 
-def test_colours_of_values_types_and_elements():
+def test_colours_of_values():
     assert len(cgt.colors.maps()) >= 4
     for name in cgt.colors.maps():
         assert cgt.colors.palette(name).shape == (1025, 3)
     values = np.r_[np.linspace(0, 1, 1001), np.nan, np.inf]
-    by = cgt.colors.by_value(values, low=0, high=1)
     table = cgt.colors.palette()
+    by = table[cgt.colors.entries(values, low=0, high=1)]
     assert np.array_equal(by[[0, 1000]], table[[0, 1023]]) and np.array_equal(by[1001:], [cgt.colors.unknown()] * 2)
-    assert np.array_equal(cgt.colors.by_value([-5, 9], low=0, high=1), table[[0, 1023]])
+    assert cgt.colors.entries([-5, 9], low=0, high=1).tolist() == [0, 1023]
     entries = cgt.colors.entries(values)
     assert entries[0] == entries[10] == 0 and entries[10] < entries[30] and entries[500] in (511, 512)
     assert entries.dtype == np.uint16 and cgt.colors.entries([3.0, 3.0]).tolist() == [0, 0]
     assert cgt.colors.entries([np.nan]).tolist() == [1024] and cgt.colors.entries([]).shape == (0,)
     with pytest.raises(cgt.InvalidArgument, match="map: 'rainbow': one of viridis"):
         cgt.colors.palette("rainbow")
-    kinds = cgt.colors.by_type([1, 2, 17])
-    assert np.array_equal(kinds[0], kinds[2]) and not np.array_equal(kinds[0], kinds[1])
-    oxygen, unknown = cgt.colors.by_element(np.array([8, 0], "u1"))
-    assert oxygen[0] > oxygen[1] and unknown.min() > 0 and cgt.colors.by_type([]).shape == (0, 3)
-    with pytest.raises(cgt.InvalidArgument, match="types: -1 to 2: must fit uint32"):
-        cgt.colors.by_type([2, -1])
 
 
 def test_cameras_fit_turn_and_light():
@@ -347,154 +338,3 @@ def test_cameras_fit_turn_and_light():
             camera.fit(nothing, 90, 60)
     with pytest.raises(cgt.InvalidArgument, match="geometries: ndarray"):
         camera.fit([np.zeros((1, 3))], 90, 60)
-
-
-def test_show_draws_bonds(tmp_path):
-    options = {"width": 90, "height": 60, "antialias": 1, "ambient": 0, "linear": True}
-    x, pairs = np.array([[0.5, 5, 5], [9.5, 5, 5], [8.0, 5, 5]]), [[0, 1], [1, 2]]
-
-    def counts(*given, **more):
-        ids = cgt.show(*given, **more, **options).linear["id"]
-        return (ids != cgt.INVALID_ID).sum(), len(np.unique(ids))
-
-    plain, _ = counts(x, 0.3)
-    through, _ = counts(x, 0.3, bonds=pairs)
-    assert through > plain + 200
-    path = tmp_path / "box.lammpstrj"
-    atoms = "".join(f"{k + 1} 1 {a} {b} {c}\n" for k, (a, b, c) in enumerate(x))
-    path.write_text("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS pp pp pp\n0 10\n0 10\n0 10\n"
-                    "ITEM: ATOMS id type x y z\n" + atoms)
-    frame = cgt.read(path).read()
-    folded, _ = counts(frame, 0.3, bonds=pairs)  # the bond across the box is two stubs
-    assert plain < folded < through
-    with pytest.raises(cgt.InvalidArgument, match="bonds: it has none"):
-        cgt.show(frame, bonds=True, **options)
-    with pytest.raises(cgt.InvalidArgument, match="bonds: it has none"):
-        cgt.show(x, bonds=True, **options)
-    pdb = tmp_path / "two.pdb"
-    pdb.write_text("".join(f"HETATM{k + 1:5}  C   UNK A   1    {a:8.3f}{b:8.3f}{c:8.3f}  1.00  0.00           C\n"
-                           for k, (a, b, c) in enumerate(x)) + "CONECT    2    3\nEND\n")
-    with_bonds = counts(cgt.read(pdb).read(), 0.3, bonds=True)
-    assert plain < with_bonds[0] < through
-    try:
-        import MDAnalysis
-    except ImportError:
-        return
-    universe = MDAnalysis.Universe.empty(3, trajectory=True)
-    universe.atoms.positions = x
-    with pytest.raises(cgt.InvalidArgument, match="bonds: it has none"):
-        cgt.show(universe, bonds=True, **options)
-    universe.add_TopologyAttr("bonds", [(0, 1), (1, 2)])
-    assert counts(universe, 0.3, bonds=True)[0] == through
-    part = universe.atoms[[2, 1]]
-    assert counts(part, 0.3, bonds=True) == counts(x[[2, 1]].astype("f4"), 0.3, bonds=[[0, 1]])
-    universe.dimensions = [10, 10, 10, 90, 90, 90]
-    assert counts(universe, 0.3, bonds=True)[0] == folded
-
-
-def test_show_takes_atoms_of_ase():
-    ase = pytest.importorskip("ase")
-    options = {"width": 60, "height": 40, "antialias": 1, "ambient": 0}
-    water = ase.Atoms("OHH", [[0, 0, 0], [0.76, 0.59, 0], [-0.76, 0.59, 0]])
-    pixels = cgt.show(water, **options).pixels.astype(int)
-    assert (pixels[..., 0] > pixels[..., 1] + 60).any()  # Jmol's red
-    water.set_cell([0.9, 9, 9])
-    water.pbc = True
-    folded = cgt.show(water, 0.1, bonds=[[0, 1]], **options).pixels  # to the image at -0.14
-    assert not np.array_equal(folded, cgt.show(water.positions, 0.1, cgt.colors.by_element([8, 1, 1]), bonds=[[0, 1]],
-                                               **options).pixels)
-
-
-def test_show_takes_arrays_frames_and_atoms(tmp_path, monkeypatch):
-    positions = np.array([[0.0, 0, 0], [2, 0, 0]])
-    options = {"width": 60, "height": 40, "antialias": 1, "ambient": 0}
-    grey = cgt.show(positions, **options)
-    assert grey.pixels.shape == (40, 60, 3) and 50 < (grey.pixels < 250).any(axis=2).sum() < 2000
-    red = cgt.show(positions, 0.5, (0.8, 0, 0), **options).pixels.astype(int)
-    hit = (red < 250).any(axis=2)
-    assert (red[hit][:, 0] > red[hit][:, 1]).all()
-    lists = cgt.show([[0, 0, 0], [2, 0, 0]], [0.5, 0.5], [[0.8, 0, 0]] * 2, **options)
-    assert np.array_equal(lists.pixels, red)
-    filled = np.flatnonzero((red < 250).any(axis=2).any(axis=0))
-    assert filled[0] < 8 and filled[-1] > 51  # from edge to edge, almost
-    with pytest.raises(cgt.InvalidArgument, match="nothing to show"):
-        cgt.show(np.zeros((0, 3)), **options)
-    mesh = tmp_path / "mesh.obj"
-    mesh.write_text("v 0 0 0\nv 9 0 0\nv 9 0 9\nf 1 2 3\n")
-    try:
-        frame = cgt.read(mesh).read()
-    except cgt.ReadError:
-        frame = None  # without assimp
-    assert frame is None or (cgt.show(frame, **options).pixels < 250).any(axis=2).sum() > 200
-    path = tmp_path / "water.xyz"
-    path.write_text("2\n\nO 0 0 0\nH 0 0 1\n")
-    oxygen = cgt.show(cgt.read(path).read(), **options).pixels.astype(int)
-    assert (oxygen[..., 0] > oxygen[..., 1] + 60).any()  # Jmol's red
-    data = types.ModuleType("ase.data")
-    data.covalent_radii = np.array([0.2, 0.31, 0.28, 1.28, 0.96, 0.84, 0.76, 0.71, 0.66])
-    monkeypatch.setitem(sys.modules, "ase", types.ModuleType("ase"))
-    monkeypatch.setitem(sys.modules, "ase.data", data)
-    atoms = types.SimpleNamespace(get_positions=lambda: positions, get_atomic_numbers=lambda: np.array([8, 1]))
-    assert (cgt.show(atoms, **options).pixels[..., 1].astype(int) < 100).any()
-
-
-def test_show_takes_universes(monkeypatch):
-    options = {"width": 60, "height": 40, "antialias": 1, "ambient": 0}
-    atoms = types.SimpleNamespace(positions=np.array([[0.0, 0, 0], [2, 0, 0]], np.float32))
-    universe = types.SimpleNamespace(atoms=atoms)
-    try:
-        import MDAnalysis
-    except ImportError:
-        MDAnalysis, guesser = types.ModuleType("MDAnalysis"), types.ModuleType("MDAnalysis.guesser")
-        guesser.tables = types.SimpleNamespace(SYMB2Z={"O": 8, "H": 1}, vdwradii={"O": 1.52, "H": 1.1})
-        monkeypatch.setitem(sys.modules, "MDAnalysis", MDAnalysis)
-        monkeypatch.setitem(sys.modules, "MDAnalysis.guesser", guesser)
-    plain = cgt.show(universe, **options).pixels
-    assert np.array_equal(plain, cgt.show(atoms.positions, 0.5, **options).pixels)  # it does not say what atoms are
-    atoms.types = np.array(["O", "H"])
-    colored = cgt.show(universe, **options).pixels
-    assert (colored[..., 0].astype(int) > colored[..., 1] + 60).any()  # Jmol's red
-    atoms.elements = np.array(["H", "H"])
-    assert not np.array_equal(colored, cgt.show(universe, **options).pixels)
-    if not hasattr(MDAnalysis, "Universe"):
-        return
-    real = MDAnalysis.Universe.empty(2, trajectory=True)
-    real.atoms.positions = atoms.positions
-    assert np.array_equal(plain, cgt.show(real, **options).pixels)
-    real.add_TopologyAttr("elements", ["O", "H"])
-    assert np.array_equal(colored, cgt.show(real, **options).pixels)
-    assert np.array_equal(colored, cgt.show(real.atoms, **options).pixels)
-    assert not np.array_equal(colored, cgt.show(real.atoms[:1], **options).pixels)
-
-
-def test_show_opens_the_window(tmp_path, monkeypatch):
-    positions = np.array([[0.0, 0, 0], [2, 0, 0], [4, 0, 0]])
-    options = {"width": 60, "height": 40, "antialias": 1, "ambient": 0}
-    monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(cgt.InvalidArgument, match="no cgt-view"):
-        cgt.show(positions, window=True, **options)
-    view = tmp_path / "cgt-view"
-    view.write_text('#!/bin/sh\nprintf "%s\\n" "$@" >"$0.args"\nfor file; do :; done\n/bin/cp "$file" "$0.file"\n')
-    view.chmod(0o755)
-    alone = cgt.show(positions, [0.5, 0.5, 1], [[1, 0, 0], [0, 0, 1], [1, 0, 0]], window=False, **options)
-    assert not (tmp_path / "cgt-view.args").exists()
-    with_window = cgt.show(positions, [0.5, 0.5, 1], [[1, 0, 0], [0, 0, 1], [1, 0, 0]], window=True, **options)
-    assert np.array_equal(alone.pixels, with_window.pixels)
-    from cgt import _show
-
-    _show._Window._open[-1].process.wait()
-    lines = (tmp_path / "cgt-view.args").read_text().split("\n")
-    assert lines[:2] == ["-s", "60x40"] and "1=0000ff" in lines and "2=ff0000" in lines
-    frame = cgt.read(tmp_path / "cgt-view.file", format="xyz").read()
-    assert np.array_equal(frame.positions, positions) and frame.radii.tolist() == [0.5, 0.5, 1]
-    assert frame.types.tolist() == [2, 1, 2]
-    monkeypatch.setattr(_show, "_can_open", lambda: True)
-    (tmp_path / "cgt-view.args").unlink()
-    cgt.show(positions, **options)  # at a prompt
-    _show._Window._open[-1].process.wait()
-    assert (tmp_path / "cgt-view.args").exists()
-    folders = [window.folder for window in _show._Window._open]
-    _show._Window._close_all()
-    assert not any(os.path.exists(folder) for folder in folders)
-    table, kinds = _show._few_colors(np.random.default_rng(3).uniform(0, 1, (5000, 3)))
-    assert len(table) <= 256 and kinds.shape == (5000,) and kinds.max() == len(table) - 1

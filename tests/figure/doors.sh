@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: MIT
 #
 # The same options and frames give the same bytes through cgt-render and through <cgt/figure.h>, whose frames are those of
-# a file, or a program's columns.
+# a file, or a program's columns, and may be kept; and through Python's cgt.Figure, where CGT_FIGURE_PYTHON has it.
 #   doors.sh CGT_RENDER DATA_DIR FIGURE_RAW [EMULATOR...]
+here=$(cd "$(dirname "$0")" && pwd)
 raw=$(cd "$(dirname "$3")" && pwd)/$(basename "$3")
 render=$1 folder=$2
 shift 3
@@ -41,6 +42,14 @@ f 1 5 7 3
 f 2 4 8 6
 END
 
+# draw_by DOOR FILE [NAME[=VALUE]...]: pictures on standard output
+draw_by() {
+    case $1 in
+    PYTHON) shift && "$CGT_FIGURE_PYTHON" "$here/figure_door.py" "$@" ;;
+    *) $emulator "$raw" "$@" ;;
+    esac
+}
+
 # both FILE [NAME[=VALUE]...]
 both() {
     file=$1
@@ -54,9 +63,9 @@ both() {
         exec $emulator "$program" -q -s 96x64 -o - "$@" "$file"
     ) >"$tmp/render.rgb" 2>"$tmp/render.err" || fail "cgt-render $*: $(head -n 2 "$tmp/render.err")"
     [ -s "$tmp/render.rgb" ] || fail "cgt-render $*: no pictures"
-    for door in FRAMES COLUMNS; do
-        (cd "$tmp" && exec $emulator "$raw" "$door" "$file" "$@") >"$tmp/figure.rgb" 2>"$tmp/figure.err" ||
-            fail "figure_raw $door $*: $(head -n 2 "$tmp/figure.err")"
+    for door in FRAMES COLUMNS KEPT ${CGT_FIGURE_PYTHON:+PYTHON}; do
+        (cd "$tmp" && draw_by "$door" "$file" "$@") >"$tmp/figure.rgb" 2>"$tmp/figure.err" ||
+            fail "$door $*: $(head -n 2 "$tmp/figure.err")"
         cmp -s "$tmp/render.rgb" "$tmp/figure.rgb" || fail "$door: other bytes than cgt-render's: $file $*"
     done
 }
@@ -78,6 +87,10 @@ for k in 0 1 2; do
         print "C", i % 3 * 2, int(i / 3) * 2, 0, substr("abcdefghijkl", i + 1, 1) "x", i - 2 }'
 done >"$tmp/words.xyz"
 
+{
+    printf '# vtk DataFile Version 3.0\nA surface of a run.\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n'
+    printf '0 0 0 8 0 0 4 8 0 4 4 6\nPOLYGONS 4 16\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n'
+} >"$tmp/surface.vtk"
 cp "$data/caffeine.xyz" "$tmp"
 both grains.lammpstrj
 both grains.lammpstrj color=c_pe range=1,9 style=paper antialias=2
@@ -93,6 +106,8 @@ both far.lammpstrj
 both far.lammpstrj box floor color=c_pe
 both far.lammpstrj camera=1000030,1000004,1000004,1000004,1000004,1000004,0,0,1,30
 both cube.obj
+both surface.vtk
+both surface.vtk color=red camera=9,-9,9,4,4,2,0,0,1,40
 both cube.obj bounces=4 material=all=glass floor
 both caffeine.xyz bonds radius-scale=0.3 outline
 both words.xyz color=site_of type-color=kx=black

@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * Pictures of a file by <cgt/figure.h>, as bytes on standard output, for doors.sh to compare with cgt-render's.
- *   figure_raw COLUMNS|FRAMES FILE [NAME[=VALUE]...]
- * COLUMNS: the frames' arrays are given as columns; FRAMES: the frames as they are. The locale is that of the
- * environment. */
+ *   figure_raw COLUMNS|FRAMES|KEPT FILE [NAME[=VALUE]...]
+ * COLUMNS: the frames' arrays are given as columns; FRAMES: the frames as they are; KEPT: the same, kept before they
+ * are shown. The locale is that of the environment. */
 #include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -114,6 +114,25 @@ static cgt_result want_columns(cgt_trajectory *file)
     return result ? result : cgt_trajectory_rewind(file);
 }
 
+/* Keeps a frame; where it is to be shown, it is, in the place of the one before. */
+static int keep(cgt_figure *figure, const cgt_figure_data *data, int is_shown, cgt_figure_frame **shown)
+{
+    cgt_figure_frame *frame = NULL;
+    char text[1024];
+    uint64_t lead;
+    if (cgt_figure_begin_keep(figure, &lead))
+        return fail_figure(figure);
+    if (cgt_figure_keep(figure, data, is_shown ? &frame : NULL, text, sizeof text))
+        return fail("frame", text);
+    if (*text)
+        fprintf(stderr, "%s\n", text);
+    if (is_shown && cgt_figure_show_frame(figure, frame))
+        return fail_figure(figure);
+    cgt_figure_frame_release(*shown);
+    *shown = frame;
+    return 0;
+}
+
 int main(int argc, char **argv)
 {
     static cgt_figure_column columns[MOST + 4];
@@ -125,11 +144,12 @@ int main(int argc, char **argv)
     cgt_figure *figure = NULL;
     cgt_trajectory *file = NULL;
     cgt_trajectory_frame frame;
+    cgt_figure_frame *shown = NULL;
     cgt_result result = CGT_OK;
     setlocale(LC_ALL, "");
     if (argc < 3)
-        return fail("arguments", "COLUMNS|FRAMES FILE [NAME[=VALUE]...]");
-    const int gives_columns = strcmp(argv[1], "COLUMNS") == 0;
+        return fail("arguments", "COLUMNS|FRAMES|KEPT FILE [NAME[=VALUE]...]");
+    const int gives_columns = strcmp(argv[1], "COLUMNS") == 0, keeps = strcmp(argv[1], "KEPT") == 0;
     if (cgt_context_create(NULL, &context) || cgt_figure_create(context, &figure))
         return fail("context", "cannot be made");
     if (cgt_figure_set(figure, "size", "96x64"))
@@ -149,15 +169,21 @@ int main(int argc, char **argv)
     reading.all_bonds = !gives_columns; /* of columns the figure guesses them */
     if (cgt_trajectory_open(argv[2], &reading, &file) || want_columns(file))
         return fail_file(file);
-    for (int turn = 0; turn < 2; turn++) { /* look at all, show each */
+    const int last = keeps ? 2 : 1;
+    for (int turn = 0; turn <= last;
+         turn++) { /* look at all, show each; between that keep them, for the first's speeds */
         while ((result = cgt_trajectory_read(file, &frame)) == CGT_OK) {
             cgt_figure_data data = {.frame = &frame};
             const cgt_image image = {.bytes = rgb[0][0]};
             if (gives_columns)
                 give_columns(&frame, &data, columns, words, &place);
-            if (turn == 0 ? cgt_figure_survey(figure, &data) : cgt_figure_show(figure, &data))
+            if (turn > 0 && keeps) {
+                if (keep(figure, &data, turn == last, &shown))
+                    return 1;
+            } else if (turn == 0 ? cgt_figure_survey(figure, &data) : cgt_figure_show(figure, &data)) {
                 return fail_figure(figure);
-            if (turn == 0)
+            }
+            if (turn < last)
                 continue;
             if (cgt_figure_draw(figure, &image, NULL))
                 return fail_figure(figure);
@@ -180,6 +206,7 @@ int main(int argc, char **argv)
         free(words[i]);
     free(place);
     cgt_figure_release(figure);
+    cgt_figure_frame_release(shown);
     cgt_trajectory_close(file);
     cgt_context_release(context);
     return 0;

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include <cgt/figure.h>
+#include <cgt/trajectory.h>
 
 enum { GRAINS = 50, WIDTH = 48, HEIGHT = 32, BYTES = 3 * WIDTH * HEIGHT };
 
@@ -107,6 +108,31 @@ TEST(values_count_in_the_order_in_which_they_were_set)
     assert_int_equal(cgt_figure_get(figure, "show", text, sizeof text), 0);
     assert_int_equal(cgt_figure_unset(figure, NULL), CGT_OK);
     assert_int_equal(cgt_figure_get(figure, NULL, NULL, 0), 0);
+    cgt_figure_release(figure);
+}
+
+/* Lines are checked together, and set together or not at all. */
+TEST(lines_are_set_at_once)
+{
+    static const char lines[] =
+        "material = 2=glass\ntitle = a = b\naxes\nshow = heat > 1\nshow = heat < 5\nbounces = 2\n";
+    cgt_figure *const figure = make_figure();
+    char text[200], all[200];
+    snprintf(all, sizeof all, "size = 48x32\n%s", lines);
+    assert_int_equal(cgt_figure_set(figure, "material", "2=glass"), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_set_lines(figure, lines), CGT_OK);
+    cgt_figure_get(figure, NULL, text, sizeof text);
+    assert_string_equal(text, all);
+    assert_int_equal(cgt_figure_set_lines(figure, "\nfov = 40\nfog = 3"), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "there is no option \"fog\"");
+    assert_int_equal(cgt_figure_set_lines(figure, "axes=3\n"), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_set_lines(figure, "axes = 3\n"), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "axes: the option takes no value");
+    assert_int_equal(cgt_figure_set_lines(figure, "camera = 1,1,1,0,0,0,0,0,1,30\nfov = 3\n"),
+                     CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_set_lines(figure, ""), CGT_OK);
+    cgt_figure_get(figure, NULL, text, sizeof text);
+    assert_string_equal(text, all);
     cgt_figure_release(figure);
 }
 
@@ -467,6 +493,44 @@ TEST(origins_are_found)
     cgt_figure_release(figure);
 }
 
+/* One colour for all is what the option color draws; where there are more than a palette holds, near ones are drawn. */
+TEST(colours_are_those_of_a_column)
+{
+    enum { MANY = 1600 }; /* of more colours than 1,024 */
+    static float color[MANY][3], at[MANY][3];
+    const cgt_figure_column given[] = {{.name = "rgb", .values = cgt_floats(color[0], 0)}};
+    cgt_figure *const figure = make_figure();
+    cgt_figure_data data = grains();
+    uint8_t wanted[BYTES], rgb[BYTES];
+    assert_int_equal(cgt_figure_set(figure, "color", "ff8000"), CGT_OK);
+    draw(figure, &data, wanted);
+    for (int i = 0; i < MANY; i++) {
+        color[i][0] = cgt_srgb_decode(255);
+        color[i][1] = cgt_srgb_decode(128);
+        for (int c = 0; c < 3; c++)
+            at[i][c] = (float)(c == 2 ? 0 : c ? i / 40 : i % 40);
+    }
+    data.points.columns = given;
+    assert_int_equal(cgt_figure_unset(figure, "color"), CGT_OK);
+    draw(figure, &data, rgb);
+    assert_memory_equal(rgb, wanted, sizeof rgb);
+    for (int i = 0; i < MANY; i++) {
+        color[i][0] = (float)(i % 40) / 40.0f;
+        color[i][1] = (float)(i / 40) / 40.0f;
+    }
+    color[7][0] = NAN;
+    data.points = (cgt_figure_points){MANY, cgt_floats(at[0], 0), given, 1, 0.7f};
+    assert_int_equal(cgt_figure_set(figure, "view", "top"), CGT_OK);
+    draw(figure, &data, rgb);
+    for (int i = 0; i < BYTES; i += 3)
+        assert_true(rgb[i + 2] <= 0x37); /* no more blue than the background has */
+    data.points.column_count = 0;
+    draw(figure, &data, rgb); /* a frame that lacks them is grey */
+    for (int i = 0; i < BYTES; i += 3)
+        assert_true(rgb[i + 2] > 3);
+    cgt_figure_release(figure);
+}
+
 TEST(nothing_is_a_figure_too)
 {
     cgt_figure *figure = NULL;
@@ -484,6 +548,312 @@ TEST(nothing_is_a_figure_too)
     for (int i = 3; i < BYTES; i++)
         assert_int_equal(rgb[i], rgb[i % 3]);
     cgt_figure_release(figure);
+}
+
+/* ---- Frames that are kept ----------------------------------------------------------------------------------- */
+
+static cgt_figure_frame *keep(cgt_figure *figure, const cgt_figure_data *data)
+{
+    cgt_figure_frame *frame = NULL;
+    char text[256];
+    uint64_t lead;
+    assert_int_equal(cgt_figure_begin_keep(figure, &lead), CGT_OK);
+    assert_int_equal(lead, 1); /* of speeds */
+    assert_int_equal(cgt_figure_keep(figure, data, &frame, text, sizeof text), CGT_OK);
+    assert_string_equal(text, "");
+    return frame;
+}
+
+static void draw_shown(cgt_figure *figure, uint8_t rgb[BYTES])
+{
+    const cgt_image image = {.bytes = rgb};
+    assert_int_equal(cgt_figure_draw(figure, &image, NULL), CGT_OK);
+}
+
+/* With an option that leaves the camera's reach the kept frame looks as one that is shown by a figure that had the
+ * option from the start; without it as before. What is not there is refused, and changes nothing. */
+TEST(options_change_what_is_shown)
+{
+    static const char *const options[][2] = {
+        {"color", "heat"},  {"bonds", "1.2"},      {"head", "0.5"},     {"style", "paper"},
+        {"antialias", "4"}, {"background", "red"}, {"floor", NULL},     {"bounces", "2"},
+        {"view", "top"},    {"zoom", "3"},         {"images", "1,1,1"}, {"light", "1,0,0"},
+        {"color", "id"},    {"color", "height"},   {"orbit", "20"},     {"range", "symmetric"}};
+    static const char *const wrong[][3] = {{"color", "cold", "has no column \"cold\""},
+                                           {"show", "cold > 2", "has no column \"cold\""},
+                                           {"box", NULL, "has no box"},
+                                           {"bonds", NULL, "has no bonds"},
+                                           {"font", "no such file", NULL},
+                                           {"trails", "3", "trails: the frames that are kept were taken otherwise"},
+                                           {"unwrap", NULL, "unwrap: the frames"},
+                                           {"whole", NULL, "whole: the frames"},
+                                           {"fill", "x", "fill: "}};
+    cgt_figure *const figure = make_figure();
+    const cgt_figure_data data = grains();
+    uint8_t first[BYTES], then[BYTES], expected[BYTES];
+    char before[200], after[200];
+    cgt_figure_frame *const frame = keep(figure, &data);
+    assert_int_equal(cgt_figure_show_frame(figure, frame), CGT_OK);
+    draw_shown(figure, first);
+    for (size_t i = 0; i < TEST_COUNT(options); i++) {
+        cgt_figure *const fresh = make_figure();
+        assert_int_equal(cgt_figure_set(figure, options[i][0], options[i][1]), CGT_OK);
+        draw_shown(figure, then);
+        assert_int_equal(cgt_figure_set(fresh, options[i][0], options[i][1]), CGT_OK);
+        draw(fresh, &data, expected);
+        if (memcmp(then, expected, sizeof then) != 0)
+            fail_msg("%s: another picture than that of a figure which had it from the start", options[i][0]);
+        assert_int_equal(cgt_figure_unset(figure, options[i][0]), CGT_OK);
+        draw_shown(figure, then);
+        if (memcmp(then, first, sizeof then) != 0)
+            fail_msg("%s: without it the picture is not as before", options[i][0]);
+        cgt_figure_release(fresh);
+    }
+    cgt_figure_get(figure, NULL, before, sizeof before);
+    for (size_t i = 0; i < TEST_COUNT(wrong); i++) {
+        const int is_font = strcmp(wrong[i][0], "font") == 0; /* read where there is a text */
+        if (is_font && cgt_figure_set(figure, "axes", NULL) != CGT_OK)
+            continue; /* without FreeType */
+        if (is_font) {
+            draw_shown(figure, first);
+            cgt_figure_get(figure, NULL, before, sizeof before);
+        }
+        assert_int_equal(cgt_figure_set(figure, wrong[i][0], wrong[i][1]), CGT_ERROR_INVALID_ARGUMENT);
+        expect_message(figure, wrong[i][2] ? wrong[i][2] : "");
+        cgt_figure_get(figure, NULL, after, sizeof after);
+        assert_string_equal(after, before);
+        draw_shown(figure, then);
+        assert_memory_equal(then, first, sizeof then);
+    }
+    cgt_figure_frame_release(frame); /* which is taken away */
+    const cgt_image image = {.bytes = then};
+    assert_int_equal(cgt_figure_draw(figure, &image, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    cgt_figure_release(figure);
+}
+
+/* What was surveyed stays with options that do not concern it: camera and range are those of the run. */
+TEST(a_survey_stays_while_frames_are_kept)
+{
+    cgt_figure *const figure = make_figure();
+    cgt_figure_data data = grains();
+    cgt_camera run, then;
+    char range[100], after[100];
+    assert_int_equal(cgt_figure_set(figure, "color", "heat"), CGT_OK);
+    assert_true(cgt_figure_needs_frame(figure));
+    assert_int_equal(cgt_figure_survey(figure, &data), CGT_OK);
+    assert_true(cgt_figure_needs_frame(figure));
+    for (int i = 0; i < GRAINS; i++) {
+        place[i][0] += 9.0f;
+        heat[i] *= 3.0f;
+    }
+    data.number = 1;
+    assert_int_equal(cgt_figure_survey(figure, &data), CGT_OK);
+    for (int i = 0; i < GRAINS; i++) {
+        place[i][0] -= 9.0f;
+        heat[i] /= 3.0f;
+    }
+    data.number = 0;
+    cgt_figure_frame *const frame = keep(figure, &data);
+    assert_int_equal(cgt_figure_get_camera(figure, &run), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "size", "48x32"), CGT_OK); /* before a frame is shown */
+    assert_int_equal(cgt_figure_set(figure, "bonds", "1.2"), CGT_OK);
+    assert_int_equal(cgt_figure_show_frame(figure, frame), CGT_OK);
+    assert_true(cgt_figure_get_chosen(figure, "range", range, sizeof range) > 0);
+    assert_string_equal(range, "0,18\n");
+    assert_int_equal(cgt_figure_set(figure, "radius-scale", "0.5"), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "colormap", "plasma"), CGT_OK);
+    assert_int_equal(cgt_figure_get_camera(figure, &then), CGT_OK);
+    assert_memory_equal(&then, &run, sizeof run);
+    cgt_figure_get_chosen(figure, "range", after, sizeof after);
+    assert_string_equal(after, range);
+    assert_int_equal(cgt_figure_set(figure, "color", "heat*1"), CGT_OK); /* of the frame */
+    cgt_figure_get_chosen(figure, "range", after, sizeof after);
+    assert_string_equal(after, "0,6\n");
+    cgt_figure_release(figure); /* before its frame */
+    cgt_figure_frame_release(frame);
+}
+
+/* A figure that is given what another one has chosen makes its picture, whatever it looks at. */
+TEST(what_was_chosen_makes_the_picture)
+{
+    cgt_figure *const figure = make_figure(), *const other = make_figure();
+    const cgt_figure_data data = grains();
+    const cgt_camera camera = {.eye = {9.0f, -7.0f, 5.0f}, .target = {2.0f, 1.0f, 0.5f}, .up = {0, 0, 1}, .fov = 33.3f};
+    uint8_t hand[BYTES], again[BYTES];
+    char text[1000];
+    cgt_camera fitted;
+    float up[3];
+    assert_int_equal(cgt_figure_get_chosen(figure, NULL, text, sizeof text), 0);
+    cgt_figure_frame *const frame = keep(figure, &data);
+    assert_int_equal(cgt_figure_set(figure, "zoom", "2"), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "up", "y"), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "color", "height"), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "floor", "teal"), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "show", "heat > 2"), CGT_OK);
+    assert_int_equal(cgt_figure_show_frame(figure, frame), CGT_OK);
+    assert_int_equal(cgt_figure_get_up(figure, up), CGT_OK);
+    assert_true(up[0] == 0.0f && up[1] == 1.0f && up[2] == 0.0f);
+    assert_int_equal(cgt_figure_set_camera(figure, &camera), CGT_OK);
+    assert_int_equal(cgt_figure_fit(figure), CGT_OK);
+    assert_int_equal(cgt_figure_get_camera(figure, &fitted), CGT_OK);
+    assert_true(fitted.fov == camera.fov && fitted.eye[0] != camera.eye[0]);
+    assert_int_equal(cgt_figure_set(figure, "show", "heat < 6"), CGT_OK);
+    draw_shown(figure, hand);
+    const size_t length = cgt_figure_get_chosen(figure, NULL, text, sizeof text);
+    assert_int_equal(length, strlen(text));
+    assert_int_equal(cgt_figure_set_lines(other, text), CGT_OK);
+    draw(other, &data, again);
+    assert_memory_equal(again, hand, sizeof hand);
+    assert_int_equal(cgt_figure_set(figure, "view", "front"), CGT_OK); /* ends the hand's */
+    assert_int_equal(cgt_figure_get_camera(figure, &fitted), CGT_OK);
+    assert_true(fitted.fov != camera.fov);
+    cgt_figure_frame_release(frame);
+    cgt_figure_release(figure);
+    cgt_figure_release(other);
+}
+
+/* Speeds are those of frames that follow each other; the first one's are those towards the second. */
+TEST(kept_frames_have_speeds)
+{
+    cgt_figure *const figure = make_figure();
+    cgt_figure_data data = grains();
+    cgt_figure_frame *frame[4];
+    char text[300];
+    const uint64_t numbered[] = {0, 1, 0, 3};
+    for (int k = 0; k < 4; k++) {
+        data.number = numbered[k];
+        data.step = (int64_t)numbered[k];
+        place[7][1] += 0.25f * (float)data.number;
+        frame[k] = keep(figure, &data);
+        place[7][1] -= 0.25f * (float)data.number;
+        assert_int_equal(cgt_figure_frame_get_data(frame[k])->number, numbered[k]);
+        assert_true(cgt_figure_frame_get_bytes(frame[k]) > 16 * GRAINS);
+        assert_int_equal(cgt_figure_show_frame(figure, frame[k]), CGT_OK);
+        cgt_figure_describe(figure, 7, text, sizeof text);
+        assert_int_equal(strstr(text, "\nspeed  0.25\n") != NULL, k == 1 || k == 2);
+    }
+    for (int k = 0; k < 4; k++)
+        cgt_figure_frame_release(frame[k]);
+    cgt_figure_release(figure);
+}
+
+TEST(frames_are_kept_after_the_call_for_it)
+{
+    cgt_figure *const figure = make_figure();
+    cgt_figure_data data = grains();
+    cgt_figure_frame *frame;
+    char text[100];
+    uint64_t lead;
+    assert_int_equal(cgt_figure_keep(figure, &data, &frame, text, sizeof text), CGT_ERROR_INVALID_ARGUMENT);
+    assert_null(frame);
+    assert_string_equal(text, "cgt_figure_begin_keep comes first");
+    assert_int_equal(cgt_figure_set(figure, "trails", "5"), CGT_OK);
+    assert_int_equal(cgt_figure_begin_keep(figure, &lead), CGT_OK);
+    assert_int_equal(lead, 5);
+    data.points.positions.data = NULL;
+    assert_int_equal(cgt_figure_keep(figure, &data, NULL, text, sizeof text), CGT_ERROR_INVALID_ARGUMENT);
+    assert_string_equal(text, "positions: there is no array");
+    cgt_figure_frame_release(NULL);
+    cgt_figure_release(figure);
+}
+
+/* ---- Pictures in parts -------------------------------------------------------------------------------------- */
+
+TEST(steps_make_the_whole_picture)
+{
+    cgt_figure *const figure = make_figure();
+    const cgt_figure_data data = grains();
+    uint8_t whole[BYTES], steps[BYTES];
+    const cgt_image image = {.bytes = steps};
+    uint32_t left = 0, count = 0;
+    assert_int_equal(cgt_figure_begin(figure), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "nothing is shown");
+    assert_int_equal(cgt_figure_step(figure, 1, &left), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_read(figure, &image), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "no picture has begun");
+    assert_int_equal(cgt_figure_set(figure, "antialias", "1"), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "light-size", "5"), CGT_OK);
+    draw(figure, &data, whole);
+    assert_int_equal(cgt_figure_begin(figure), CGT_OK);
+    do {
+        assert_int_equal(cgt_figure_step(figure, 1, &left), CGT_OK);
+        count++;
+    } while (left);
+    assert_true(count > 4);
+    assert_int_equal(cgt_figure_read(figure, &image), CGT_OK);
+    assert_memory_equal(steps, whole, sizeof whole);
+    cgt_figure_release(figure);
+}
+
+static bool always(const void *user)
+{
+    (void)user;
+    return true;
+}
+
+/* In plain style a quick picture is the picture; a shrunk one has blocks of pixels. */
+TEST(quick_pictures_are_plain)
+{
+    cgt_figure *const figure = make_figure();
+    const cgt_figure_data data = grains();
+    static uint8_t whole[BYTES], quick[BYTES], four[4 * WIDTH * HEIGHT];
+    const cgt_image image = {.bytes = quick}, wide = {.bytes = four, .channels = 4}, none = {.channels = 3};
+    assert_int_equal(cgt_figure_set(figure, "antialias", "1"), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "style", "plain"), CGT_OK);
+    draw(figure, &data, whole);
+    cgt_figure_set_stop(figure, always, NULL);
+    assert_int_equal(cgt_figure_draw_quick(figure, CGT_FIGURE_PLAIN, 1, &image), CGT_OK);
+    assert_memory_equal(quick, whole, sizeof whole);
+    assert_int_equal(cgt_figure_draw_quick(figure, CGT_FIGURE_PLAIN, 1, &wide), CGT_OK);
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        assert_memory_equal(four + 4 * (ptrdiff_t)i, whole + 3 * (ptrdiff_t)i, 3);
+    assert_int_equal(cgt_figure_draw_quick(figure, CGT_FIGURE_SHADOWS, 3, &image), CGT_OK);
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++)
+            assert_memory_equal(quick + 3 * ((ptrdiff_t)y * WIDTH + x),
+                                quick + 3 * ((ptrdiff_t)(y / 3 * 3) * WIDTH + x / 3 * 3), 3);
+    assert_int_equal(cgt_figure_draw_quick(figure, CGT_FIGURE_PLAIN, 0, &image), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_draw_quick(figure, CGT_FIGURE_PLAIN, 1, &none), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "a quick picture is one of bytes");
+    assert_int_equal(cgt_figure_set(figure, "style", "soft"), CGT_OK);
+    assert_int_equal(cgt_figure_show(figure, &data), CGT_OK);
+    assert_int_equal(cgt_figure_draw(figure, &image, NULL), CGT_ERROR_STOPPED);
+    cgt_figure_release(figure);
+}
+
+/* What a pixel shows is the grain in front, by its number in the data, also where others are hidden. */
+TEST(pixels_are_picked)
+{
+    cgt_figure *const figure = make_figure();
+    const cgt_figure_data data = grains();
+    cgt_figure_hit hit;
+    char text[200];
+    uint32_t hits = 0;
+    assert_int_equal(cgt_figure_pick(figure, 1, 1, &hit), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_set(figure, "show", "heat > 2"), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "bonds", "1.2"), CGT_OK);
+    cgt_figure_frame *const frame = keep(figure, &data);
+    assert_int_equal(cgt_figure_show_frame(figure, frame), CGT_OK);
+    for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+        assert_int_equal(cgt_figure_pick(figure, i % WIDTH, i / WIDTH, &hit), CGT_OK);
+        if (!hit.is_data)
+            continue;
+        double square = 0.0;
+        for (int c = 0; c < 3; c++)
+            square += pow((double)hit.place[c] - (double)place[hit.element][c], 2.0);
+        assert_true(fabs(sqrt(square) - 0.4) < 1e-3 && heat[hit.element] > 2.0f);
+        hits++;
+    }
+    assert_true(hits > 100);
+    snprintf(text, sizeof text, "sphere 10\nat  0, 2, 0\nradius  0.4\nheat  3\n");
+    char told[200];
+    assert_int_equal(cgt_figure_describe(figure, 10, told, sizeof told), strlen(text));
+    assert_string_equal(told, text);
+    assert_int_equal(cgt_figure_describe(figure, 10, told, 12), strlen(text));
+    assert_string_equal(told, "sphere 10\na");
+    assert_int_equal(cgt_figure_describe(figure, GRAINS, told, sizeof told), 0);
+    cgt_figure_release(figure);
+    cgt_figure_frame_release(frame);
 }
 
 SEEDED_SUITE("test_figure", make_grains, release_context)

@@ -26,9 +26,9 @@ packaging=$source/packaging
 
 rm -rf recipes
 mkdir recipes
-# the settings of the build that change a command
+# the settings of the build that change a command; its texts, too, which the recipes leave out
 set -- -DCMAKE_C_COMPILER="$cc"
-for name in CMAKE_BUILD_TYPE CMAKE_C_FLAGS CMAKE_C_FLAGS_RELEASE CGT_ONLY_VARIANTS CGT_WERROR; do
+for name in CMAKE_BUILD_TYPE CMAKE_C_FLAGS CMAKE_C_FLAGS_RELEASE CGT_ONLY_VARIANTS CGT_WERROR CGT_BUILD_TEXT; do
     set -- "$@" "-D$name=$(sed -nE "s/^$name:[A-Z]+=//p" "$build/CMakeCache.txt")"
 done
 python3 "$source/tests/packaging/run_conanfile.py" "$packaging/conan/conanfile.py" recipes "$build" "$cmake" "$@" \

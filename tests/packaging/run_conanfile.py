@@ -18,7 +18,7 @@ import types
 recipe, work, built = (pathlib.Path(path).resolve() for path in sys.argv[1:4])
 cmake, profile = sys.argv[4], sys.argv[5:]
 tree = recipe.parents[2]
-LIBRARIES = ("backends", "cmake", "include", "picture", "simd", "src")
+LIBRARIES = ("backends", "cmake", "figure", "include", "picture", "simd", "src")
 
 
 class Settings(types.SimpleNamespace):
@@ -88,7 +88,7 @@ def commands(build, source):
     return {(os.path.relpath(entry["file"], source), bare(entry["command"]))
             for entry in json.loads(text)
             if re.search(r"/cgt_(objects|\w*archive_objects|\w*exported_objects|kernel_\w+)\.dir/", entry["command"])
-            and os.path.relpath(entry["file"], source).split(os.sep)[0] in ("src", "backends", "picture")}
+            and os.path.relpath(entry["file"], source).split(os.sep)[0] in ("src", "backends", "picture", "figure")}
 
 
 def run(*command):

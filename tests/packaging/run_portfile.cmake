@@ -17,7 +17,7 @@ endfunction()
 # files_of(<variable> <build>): what it compiles, by paths within the sources
 function(files_of variable build)
     file(STRINGS "${build}/compile_commands.json" lines REGEX "\"file\"")
-    list(TRANSFORM lines REPLACE ".*/(src|backends|picture)/" "\\1/")
+    list(TRANSFORM lines REPLACE ".*/(src|backends|picture|figure)/" "\\1/")
     list(SORT lines)
     set(${variable} "${lines}" PARENT_SCOPE)
 endfunction()

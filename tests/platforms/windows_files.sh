@@ -21,6 +21,7 @@ for file in $files; do
     case ${file##*/} in
     libcgt.dll) headers="cgt.h all_hits.h bounces.h research.h" ;;
     libcgt-picture.dll) headers="color.h picture.h" needs=libcgt.dll ;;
+    libcgt-figure.dll) headers=figure.h needs="libcgt.dll|libcgt-picture.dll" ;;
     libcgt-trajectory.dll) headers=trajectory.h ;;
     *.exe) headers= ;;
     *) fail "no rule for $file" ;;

@@ -14,13 +14,50 @@
 #include <unistd.h>
 
 #include "data/frame_copy.h"
-#include "playback/survey_run.h"
+#include "playback/survey_walk.h"
+#include "survey/survey.h"
 
 enum { FRAMES = 70 };
 
 static cgt_context *context; /* of two threads */
 static char path[] = "frame_source_XXXXXX";
 static stop_flag stop;
+
+/* A survey of what a source's sequence takes. */
+typedef struct survey_plan {
+    uint64_t most;                /* looks at the first frames alone, this many */
+    int count;                    /* counts the frames up to the file's end in any case */
+    int quiet;                    /* no progress on the terminal */
+    const stop_flag *stop;        /* not 0: ends the survey with an error */
+    cgt_context *context;         /* whose threads look at large frames; the survey is the same from any number */
+    const camera_directions *fit; /* of spheres, and one more of triangles: what the camera needs; NULL: nothing */
+} survey_plan;
+
+static int look(void *user, char *error, size_t error_size)
+{
+    (void)error;
+    (void)error_size;
+    cgt_survey_look(user);
+    return 0;
+}
+
+static int survey_run(frame_source *source, const survey_plan *plan, survey *result, char *error, size_t error_size)
+{
+    survey_team team;
+    survey_walk walk = {.most = plan->most,
+                        .count = plan->count,
+                        .quiet = plan->quiet,
+                        .stop = plan->stop,
+                        .look = look,
+                        .user = &team};
+    cgt_survey_begin(&team, source->sequence, plan->fit, plan->context, result);
+    const int failed = survey_walk_run(&walk, source, error, error_size);
+    cgt_survey_end(&team);
+    result->has_total = walk.has_total;
+    result->total = walk.total;
+    result->is_cut = walk.is_cut;
+    return failed;
+}
 
 /* Frame i has i % 3 + 1 spheres; the first one moves by i in frame i. */
 static int write_run(void **state)

@@ -4,7 +4,8 @@
 #
 # wheel.sh SOURCE_DIR CC
 # One command makes a package that holds the library, without network: a distribution of the source, from it a wheel, and
-# the wheel installed elsewhere, where neither the source nor an installed libcgt is. What is missing has a sentence.
+# the wheel installed elsewhere, where neither the source nor an installed libcgt is. The top of the tree makes the same
+# distribution as the folder python. What is missing has a sentence.
 set -eu
 source=$1 cc=$2
 . "$source/tests/python/find_python.sh" # sets python
@@ -15,11 +16,17 @@ unset CGT_PREFIX CGT_LIBRARY PYTHONPATH
 export CC="$cc" PYTHONDONTWRITEBYTECODE=1 CGT_CMAKE="-DCGT_ONLY_VARIANTS=sse" CCACHE_BASEDIR="$work" CCACHE_NOHASHDIR=1
 
 mkdir "$work/tree"
-for name in CMakeLists.txt LICENSE cmake include simd src backends figure picture mpi programs python; do
+for name in CMakeLists.txt LICENSE pyproject.toml cmake include simd src backends figure picture mpi programs python; do
     cp -r "$source/$name" "$work/tree/"
 done
 find "$work/tree" | sort >"$work/files"
 (cd "$work/tree/python" && "$python" setup.py -q sdist -d "$work/dist") >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+(cd "$work/tree" && PYTHONPATH=python "$python" -c 'import backend, sys; backend.build_sdist(sys.argv[1])' "$work/top") \
+    >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+for folder in dist top; do
+    tar -tzf "$work/$folder"/cgt-*.tar.gz | sort >"$work/$folder.files"
+done
+diff "$work/dist.files" "$work/top.files"
 find "$work/tree" | sort | diff "$work/files" - || { echo "a distribution leaves files in the source tree"; exit 1; }
 rm -r "$work/tree"
 tar -xzf "$work"/dist/cgt-*.tar.gz -C "$work"
@@ -57,11 +64,11 @@ import sys
 
 import cgt
 
-picture = cgt.show([[0, 0, 0], [1, 0, 0]], 0.6, ["red", "gold"], width=64, height=48, window=False)
+picture = cgt.show([[0, 0, 0], [1, 0, 0]], 0.6, ["red", "gold"], size=(64, 48), window=False)
 assert len({tuple(p) for p in picture.pixels.reshape(-1, 3)}) > 9
 path = pathlib.Path(sys.argv[1]) / "two.xyz"
 path.write_text("1\n\nO 0 0 0\n" * 2)
 assert len(cgt.read(path)) == 2
 loaded = {line.split()[-1] for line in open("/proc/self/maps") if "libcgt" in line}
-assert len(loaded) == 3 and all(file.startswith(sys.argv[1]) for file in loaded), loaded
+assert len(loaded) == 4 and all(file.startswith(sys.argv[1]) for file in loaded), loaded
 END

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # check_picture_symbols.sh HEADER STATIC_LIBRARY SHARED_LIBRARY NM OBJDUMP
-# libcgt-picture, or libcgt-mpi, exports exactly what its header declares, with color.h; its archive is as
+# libcgt-picture, libcgt-figure or libcgt-mpi exports exactly what its header declares, with color.h; its archive is as
 # check_archive.sh wants it.
 set -eu
 header=$1 static=$2 shared=$3 nm=$4 objdump=$5

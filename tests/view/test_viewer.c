@@ -14,7 +14,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "options/figure_values.h"
 #include "view/viewer_internal.h"
 
 enum { SPHERES = 200, FRAMES = 12, WIDTH = 96, HEIGHT = 64 };
@@ -59,7 +58,7 @@ static int remove_run(void **state)
 
 static void wake(void *user) { (void)user; }
 
-static const char *opacity; /* of spheres; NULL: they are opaque */
+static const char *settings = "ambient = 16\n";
 
 static viewer *open_viewer(uint32_t memory)
 {
@@ -71,20 +70,10 @@ static viewer *open_viewer(uint32_t memory)
     o.render.no_images = 1;
     o.render.figure.width = WIDTH;
     o.render.figure.height = HEIGHT;
-    o.render.figure.samples = 2;
+    o.render.settings = strdup(settings);
     o.render.output.survey = VIEW_SURVEY_AUTO;
     o.render.threads = 2;
     o.render.memory_mib = memory;
-    picture_options *const p = &o.render.figure.picture; /* soft style, as the command line has it without options */
-    p->ambient = 16;
-    p->shadows = 1;
-    p->light_samples = 8;
-    p->key = 0.62f;
-    p->sky = 0.36f;
-    p->head = 0.1f;
-    p->outline = p->cue = p->light_size = 0.0f;
-    char error[256];
-    assert_true(!opacity || cgt_parse_opacity(opacity, &o.render.figure.particles, error, sizeof error) == 0);
     viewer *const v = viewer_create(&o, wake, NULL);
     assert_non_null(v);
     assert_false(viewer_has_failed(v));
@@ -272,9 +261,9 @@ static void try_clicks(void)
 TEST(clicks_select_what_is_hit)
 {
     try_clicks();
-    opacity = "mod(index, 3) == 1=0.4";
+    settings = "ambient = 16\nopacity = mod(index, 3) == 1=0.4\n";
     try_clicks();
-    opacity = NULL;
+    settings = "ambient = 16\n";
 }
 
 /* What is selected is followed by its id; columns, distance and angle are told. */
@@ -390,6 +379,49 @@ TEST(pictures_grow_at_rest)
     viewer_free(v);
 }
 
+/* ---- Options ------------------------------------------------------------------------------------------------ */
+
+static uint64_t sum(viewer *v)
+{
+    uint64_t total = 0;
+    for (size_t i = 0; i < 3 * (size_t)WIDTH * HEIGHT; i++)
+        total = total * 31 + v->rgb[i];
+    return total;
+}
+
+/* Any option may be set while a frame is shown; what is refused says why, and changes nothing. */
+TEST(options_are_set_in_the_window)
+{
+    static const char *const options[][2] = {{"style", "paper"},     {"color", "q"},  {"bonds", "0.9"},
+                                             {"show", "type > 1"},   {"ortho", NULL}, {"background", "white"},
+                                             {"radius-by", "q/300"}, {"box", NULL}};
+    static const char *const wrong[][2] = {
+        {"size", "10x10"}, {"color", "no_such"}, {"trails", "3"}, {"fill", "much"}, {"nothing", "1"}};
+    viewer *const v = open_viewer(64);
+    settle(v);
+    const cgt_camera camera = v->camera;
+    const uint64_t before = sum(v);
+    for (size_t i = 0; i < TEST_COUNT(options); i++) {
+        assert_int_equal(viewer_set(v, options[i][0], options[i][1]), 0);
+        settle(v);
+        assert_true(sum(v) != before);
+        assert_memory_equal(&v->camera, &camera, sizeof camera);
+        assert_int_equal(viewer_unset(v, options[i][0]), 0);
+        settle(v);
+        assert_true(sum(v) == before);
+    }
+    for (size_t i = 0; i < TEST_COUNT(wrong); i++) {
+        assert_int_equal(viewer_set(v, wrong[i][0], wrong[i][1]), -1);
+        assert_true(v->messages > 0);
+        settle(v);
+        assert_false(v->scene_is_wrong);
+        assert_true(sum(v) == before);
+    }
+    assert_int_equal(viewer_set(v, "view", "top"), 0); /* in place of the hand's */
+    assert_true(v->camera.target[2] < v->camera.eye[2] - 1.0f && fabsf(v->camera.eye[0] - v->camera.target[0]) < 1e-3f);
+    viewer_free(v);
+}
+
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 
 TEST(frames_stay_within_memory)
@@ -423,7 +455,9 @@ TEST(little_memory_loses_no_frame)
     cgt_trajectory_options reading;
     cgt_trajectory_options_init(&reading);
     assert_int_equal(frame_source_open(&source, &sequence, inputs, 1, &reading, error, sizeof error), 0);
-    const view_frames_options o = {.paths = inputs,
+    assert_int_equal(figure_run_want_all(&source, error, sizeof error), 1);
+    const view_frames_options o = {.figure = v->draw->figure,
+                                   .paths = inputs,
                                    .path_count = 1,
                                    .reading = &reading,
                                    .range = {1, UINT64_MAX - 1, 2},

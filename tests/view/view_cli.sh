@@ -77,7 +77,7 @@ same view_0000-2.png
 
 # Mirrors and glass, a floor, a transparent background; also after colours, hiding and the camera's up have changed.
 rm -f "$tmp"/view_*
-view 0 --bounces 4 --material 'C=glass' --material 'all=mirror' --floor "$data/caffeine.xyz" <<'END'
+view 0 --material 'C=glass' --material 'all=mirror' --bounces 4 --floor "$data/caffeine.xyz" <<'END'
 settle
 key f
 key z
@@ -98,7 +98,7 @@ say
 END
 same view_0000.png
 says out 'selected sphere [0-9]*, type [0-9], [CHNO]'
-says out '--bounces=4 .*--floor-axis=z .*--floor-place=.*--show='
+says out '--bounces=4 .*--show=.*--floor-axis=z .*--floor-place='
 rm -f "$tmp"/view_*
 view 0 --style plain --floor=red --floor-height -1 --transparent --title T --up y -a 1 "$data/caffeine.xyz" <<'END'
 settle

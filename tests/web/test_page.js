@@ -55,10 +55,10 @@ async function pixels(page) {
     })()`);
     return Buffer.from(text, 'base64');
 }
-async function compare(page, file, style, frame = 0) {
+async function compare(page, file, style, frame = 0, options = []) {
     await settle(page);
     const native = execFileSync(render, ['-c', await camera(page), '-s', `${width}x${height}`, '--style', style,
-        '-o', '-', '--first', frame, '--last', frame, file].map(String), {maxBuffer: 1 << 26, stdio: ['ignore', 'pipe', 'ignore']});
+        '-o', '-', '--first', frame, '--last', frame, ...options, file].map(String), {maxBuffer: 1 << 26, stdio: ['ignore', 'pipe', 'ignore']});
     const page_bytes = await pixels(page);
     assert.strictEqual(page_bytes.length, native.length);
     let differ = 0;
@@ -187,7 +187,7 @@ async function main() {
         await page.until('cgtPage.picked !== null');
         assert.strictEqual(await page.run('cgtPage.picked'), asked);
         assert(asked >= 0);
-        assert.match(await page.run(`document.getElementById('message').textContent`), /^sphere \d+, [A-Z]/);
+        assert.match(await page.run(`document.getElementById('message').textContent`), /^sphere \d+, type \d+, [A-Z][a-z]?, at /);
     });
     await test('a compressed LAMMPS run, frames in any order', async () => {
         await drop(page, 'pour2k.lammpstrj.gz', zlib.gzipSync(read('pour2k.lammpstrj')));
@@ -205,6 +205,40 @@ async function main() {
         assert.strictEqual(await page.run(`document.getElementById('frame').textContent`),
             `frame 4, ${spheres.toLocaleString('en')} primitives`);
         assert.match(await page.run(`document.getElementById('message').textContent`), / frames$/);
+    });
+    const set = async (page, name, value) => {
+        const text = await page.run(`(() => { cgtPage.left = -1;
+            return cgtPage.ask('set', {name: '${name}', value: ${JSON.stringify(value)}}).then((m) => m.text); })()`);
+        await settle(page);
+        return text;
+    };
+    await test('options are those of cgt-render, and pictures with them', async () => {
+        const rows = await page.run(`cgtPage.ask('options').then((m) => m.rows)`);
+        assert(rows.length > 60);
+        for (const row of rows)
+            assert(row.name && row.group && row.help && row.kind, JSON.stringify(row));
+        assert.deepStrictEqual(rows.find((row) => row.name === 'style').words.split(/,? /), ['soft', 'paper', 'plain']);
+        const file = path.join(data, 'caffeine.xyz');
+        await drop(page, 'caffeine.xyz', read('caffeine.xyz'));
+        for (const [name, value] of [['bonds', null], ['radius-scale', '0.3'], ['color', 'x'], ['style', 'paper']])
+            assert.strictEqual(await set(page, name, value), '');
+        const options = ['--bonds', '--radius-scale=0.3', '--color=x'];
+        await compare(page, file, 'paper', 0, options);
+        assert.match(await set(page, 'color', 'no_such'), /has no column "no_such"/);
+        assert.match(await set(page, 'colour', 'red'), /there is no option "colour"/);
+        await compare(page, file, 'paper', 0, options);
+        assert.strictEqual(await set(page, 'bonds', undefined), '');
+        await compare(page, file, 'paper', 0, options.slice(1));
+        await drop(page, 'cube.obj', 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nf 1 2 3 4\n'); // for which they are not
+        assert.strictEqual(await page.run('cgtPage.error'), '');
+        await page.until(`/^options are left out: .* for spheres/.test(document.getElementById('message').textContent)`);
+        assert.strictEqual(await set(page, 'style', 'plain'), '');
+    });
+    await test('a run begins where it shows something', async () => {
+        await drop(page, 'pour2k.lammpstrj', read('pour2k.lammpstrj'));
+        assert.strictEqual(await page.run('cgtPage.frame'), 3);
+        await page.run(`cgtPage.ask('seek', {frame: 0}, 'picture')`);
+        assert.strictEqual(await page.run('cgtPage.frame'), 0);
     });
     await test('two fingers zoom', async () => {
         const before = (await camera(page)).split(',').map(Number);

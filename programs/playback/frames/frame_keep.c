@@ -3,79 +3,11 @@
  *
  * Frames that are kept; see frame_keep.h. */
 #include "playback/frames/frame_keep.h"
+#include "data/frame_copy.h"
 #include "trajectory/trajectory_status.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-/* ---- Clones ------------------------------------------------------------------------------------------------- */
-
-enum { ALIGNMENT = 16 };
-
-/* A block that is being filled, or, while base is NULL, measured. */
-typedef struct block {
-    char *base;
-    size_t end;
-} block;
-
-/* Takes room, and copies so many bytes there; NULL stays NULL. */
-static void *put(block *b, const void *from, size_t bytes)
-{
-    char *const to = b->base ? b->base + b->end : NULL;
-    if (!from)
-        return NULL;
-    b->end += (bytes + ALIGNMENT) / ALIGNMENT * ALIGNMENT; /* one byte at least: a place is no NULL */
-    return to ? memcpy(to, from, bytes) : NULL;
-}
-
-static void put_columns(block *b, cgt_trajectory_frame *f)
-{
-    const cgt_trajectory_column *const from = f->column;
-    cgt_trajectory_column *const to = put(b, from, f->columns * sizeof *from);
-    for (uint32_t i = 0; i < f->columns; i++) {
-        cgt_trajectory_column column = from[i];
-        const int has_words = column.value && column.kind == CGT_TRAJECTORY_WORD;
-        column.name = put(b, from[i].name, strlen(from[i].name) + 1);
-        column.value = put(b, from[i].value, f->count * sizeof *column.value);
-        column.word = put(b, has_words ? from[i].word : NULL, has_words ? column.words * sizeof *column.word : 0);
-        if (to)
-            to[i] = column;
-    }
-    f->column = to;
-}
-
-/* Puts a frame and its arrays into a block. */
-static void put_frame(block *b, const cgt_trajectory_frame *frame)
-{
-    cgt_trajectory_frame f = *frame;
-    cgt_trajectory_frame *const to = put(b, frame, sizeof *frame);
-    const size_t n = f.count;
-    f.xyzr = put(b, f.xyzr, n * 4 * sizeof *f.xyzr);
-    f.position = put(b, f.position, n * 3 * sizeof *f.position);
-    f.vertex_normal = put(b, f.vertex_normal, n * 3 * sizeof *f.vertex_normal);
-    f.id = put(b, f.id, n * sizeof *f.id);
-    f.type = put(b, f.type, n * sizeof *f.type);
-    f.velocity = put(b, f.velocity, n * 3 * sizeof *f.velocity);
-    f.element = put(b, f.element, n * sizeof *f.element);
-    f.bond = put(b, f.bond, 2 * (size_t)f.bonds * sizeof *f.bond);
-    put_columns(b, &f);
-    if (to)
-        *to = f;
-}
-
-cgt_trajectory_frame *frame_clone(const cgt_trajectory_frame *frame, size_t *bytes)
-{
-    block b = {NULL, 0};
-    put_frame(&b, frame);
-    *bytes = b.end;
-    b = (block){malloc(b.end), 0};
-    if (!b.base)
-        return NULL;
-    put_frame(&b, frame);
-    return (cgt_trajectory_frame *)(void *)b.base;
-}
-
-/* ---- What is kept ------------------------------------------------------------------------------------------- */
 
 void frame_keep_release(frame_keep *keep)
 {
@@ -118,7 +50,7 @@ static void add(frame_keep *keep, const cgt_trajectory_frame *frame)
         keep->frame = more;
         keep->room = room;
     }
-    cgt_trajectory_frame *const clone = frame_clone(frame, &bytes);
+    cgt_trajectory_frame *const clone = cgt_frame_clone(frame, &bytes);
     keep->is_keeping = clone && bytes <= keep->most - keep->bytes;
     if (keep->is_keeping) {
         keep->frame[at].clone = clone;

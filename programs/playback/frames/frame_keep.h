@@ -26,10 +26,6 @@ typedef struct frame_keep {
     size_t bytes;
 } frame_keep;
 
-/* A frame with arrays of its own, in one block that free() takes; triangles' indices alone stay those of the
- * trajectory, since all its frames share them. NULL: no memory. *bytes gets the block's size. */
-cgt_trajectory_frame *frame_clone(const cgt_trajectory_frame *frame, size_t *bytes);
-
 /* Forgets all frames, and keeps those that are read from now on; at the file's begin. */
 void frame_keep_begin(frame_keep *keep);
 

@@ -106,7 +106,7 @@ done <"$work/rows"
 
 for folder in figure programs/common programs/convert programs/picture programs/playback programs/render; do
     find "$source/$folder" -name '*.[ch]' -o -name '*.cpp'
-done | grep -vE '/(option_table|option_rows|figure|figure_data|figure_settings)\.c$' >"$work/files"
+done | grep -vE '/(option_table|option_rows|figure(_data|_frame|_settings|_steps|_tell)?)\.c$' >"$work/files"
 LC_ALL=C awk -F '\t' -v files="$work/files" -v root="$source/" -f "$source/tests/support/sentences.awk" \
     "$work/sentences" "$here/exceptions.tsv" || failures=$((failures + 1))
 

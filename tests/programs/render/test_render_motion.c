@@ -11,7 +11,7 @@
 
 #include "camera/camera_keys.h"
 #include "camera/camera_path.h"
-#include "playback/survey_run.h"
+#include "survey/survey.h"
 #include "sequence/speed.h"
 
 static cgt_context *context; /* of two threads */

@@ -27,6 +27,10 @@ if grep -rlF "$work/first" "$prefix" || grep -rlF "$build" "$prefix/include" "$p
     exit 1
 fi
 
+# the example of figures writes on them
+has_text=no
+[ -z "$(find "$prefix" -name cgt-figure.pc -exec grep freetype2 {} +)" ] || has_text=yes
+
 echo "== headers alone"
 cxx=$(printf '%s\n' "$cc" | sed -E 's/clang([^/]*)$/clang++\1/; s/gcc([^/]*)$/g++\1/; s/(^|\/)cc$/\1c++/')
 count=0
@@ -79,12 +83,14 @@ build() {
     shift
     "$cmake" --build "$work/$folder" -j2 "$@" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 }
-# expect_spheres COMMAND...: the other example writes the same file in every build
-expect_spheres() {
+# expect_file NAME COMMAND...: another example writes the same file, NAME.png, in every build
+expect_file() {
+    name=$1
+    shift
     (cd "$work" && "$@")
-    [ -e "$work/first_spheres" ] || cp "$work/spheres.png" "$work/first_spheres"
-    cmp "$work/spheres.png" "$work/first_spheres"
-    rm "$work/spheres.png"
+    [ -e "$work/first_$name" ] || cp "$work/$name.png" "$work/first_$name"
+    cmp "$work/$name.png" "$work/first_$name"
+    rm "$work/$name.png"
 }
 # expect_picture COMMAND...: the example draws the same picture in every build
 expect_picture() {
@@ -118,9 +124,9 @@ echo "== licence"
 
 echo "== find_package"
 # by itself cgt::cgt is the archive; each component makes it the library of that name
-everything="shared;picture;trajectory"
+everything="shared;picture;figure;trajectory"
 [ ! -e "$prefix/include/cgt/mpi.h" ] || everything="$everything;mpi"
-for components in "" static "$everything"; do
+for components in "" "static;figure" "$everything"; do
     folder=package$(echo "$components" | tr -d ";")
     configure "$folder" -DCMAKE_PREFIX_PATH="$prefix" -DCONSUMER_COMPONENTS="$components" ||
         { cat "$work/log"; exit 1; }
@@ -134,13 +140,18 @@ for components in "" static "$everything"; do
         "$@" "$work/$folder/consumer_$library"
     done
     for library in picture picture_static picture_shared; do
-        expect_spheres "$@" "$work/$folder/draw_spheres_$library"
+        expect_file spheres "$@" "$work/$folder/draw_spheres_$library"
     done
+    if [ $has_text = yes ]; then
+        for library in figure figure_static figure_shared; do
+            expect_file figure "$@" "$work/$folder/draw_$library"
+        done
+    fi
     expect_frames "$@" "$work/$folder/print_frames"
 done
 if [ "${everything##*;}" = mpi ]; then
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-    (cd "$work" && "$work/packagesharedpicturetrajectorympi/mpi_balls" 1 first)
+    (cd "$work" && "$work/packagesharedpicturefiguretrajectorympi/mpi_balls" 1 first)
 fi
 for program in simulate simulate_cxx; do
     [ "$program" = simulate ] || [ -e "$work/package/$program" ] || continue # no C++ compiler
@@ -151,7 +162,7 @@ if configure refused -DCMAKE_PREFIX_PATH="$prefix" -DCONSUMER_COMPONENTS="shared
     echo "a component that does not exist was found"
     exit 1
 fi
-tr '\n' ' ' <"$work/log" | tr -s ' ' | grep -qF 'cgt has no component "fast": there are "shared", "static", "picture", "trajectory"' ||
+tr '\n' ' ' <"$work/log" | tr -s ' ' | grep -qF 'cgt has no component "fast": there are "shared", "static", "picture", "figure", "trajectory"' ||
     { cat "$work/log"; exit 1; }
 
 echo "== find_package twice"
@@ -216,9 +227,9 @@ if ! command -v pkg-config >/dev/null; then
     exit 1
 fi
 pc=$(find "$prefix" -name cgt.pc)
-export PKG_CONFIG_LIBDIR="${pc%/*}"
+export PKG_CONFIG_PATH="${pc%/*}" # before the system's, which have FreeType
 version=$(sed -nE 's/.*VERSION_STRING "(.*)"/\1/p' "$prefix/include/cgt/version.h")
-for name in cgt cgt-static cgt-picture cgt-picture-static cgt-trajectory; do
+for name in cgt cgt-static cgt-picture cgt-picture-static cgt-figure cgt-figure-static cgt-trajectory; do
     [ "$(pkg-config --modversion "$name")" = "$version" ]
 done
 libdir=$(pkg-config --variable=libdir cgt)
@@ -250,8 +261,18 @@ compile static $(pkg-config --cflags --libs cgt-static)
 # shellcheck disable=SC2046
 "$cc" -std=c11 "$source/examples/draw_spheres.c" -o "$work/spheres_static" \
     $(pkg-config --cflags --libs cgt-picture-static)
-expect_spheres "$@" "$work/spheres_shared"
-expect_spheres "$@" "$work/spheres_static"
+expect_file spheres "$@" "$work/spheres_shared"
+expect_file spheres "$@" "$work/spheres_static"
+for name in cgt-figure cgt-figure-static; do
+    # shellcheck disable=SC2046
+    "$cc" -std=c11 "$source/examples/draw_figure.c" -o "$work/$name" $(pkg-config --cflags --libs "$name") -lm \
+        -Wl,-rpath,"$libdir"
+    [ $has_text = no ] || expect_file figure "$@" "$work/$name"
+done
+awk '/^```/ { inside = $0 == "```c"; next } inside' "$source/docs/guide/figure.md" >"$work/water.c" # as the guide says
+# shellcheck disable=SC2046
+"$cc" -std=c11 -Wall -Wextra -Wshadow -Werror "$work/water.c" -o "$work/water" $(pkg-config --cflags --libs cgt-figure-static)
+expect_file water "$@" "$work/water"
 mkdir "$work/archive"
 cp "$libdir/libcgt.a" "$work/archive" # alone, so that the linker cannot take the shared one
 # shellcheck disable=SC2046
@@ -273,7 +294,7 @@ echo "== the library alone"
 "$cmake" -S "$source" -B "$work/alone" -DCGT_ONLY_LIBRARY=ON -DCGT_ONLY_VARIANTS=portable -DCMAKE_C_COMPILER="$cc" \
     ${toolchain:+-DCMAKE_TOOLCHAIN_FILE="$toolchain"} >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 grep -q '"file".*/src/core/memory.c"' "$work/alone/compile_commands.json"
-if grep '"file"' "$work/alone/compile_commands.json" | grep -vE '/(src|backends|picture)/[a-z_/]*\.c"'; then
+if grep '"file"' "$work/alone/compile_commands.json" | grep -vE '/(src|backends|picture|figure)/[a-z_/]*\.c"'; then
     echo "the files above are compiled with CGT_ONLY_LIBRARY"
     exit 1
 fi
@@ -289,7 +310,7 @@ flags_of below | grep -q -e '-DNDEBUG'
 # commands_of FOLDER: what is compiled of the libraries, and how, a word a line; but for what a build type sets
 commands_of() {
     awk -F '"' '$2 == "command" { command = $4 } $2 == "file" { print $4, command }' "$1/compile_commands.json" |
-        grep -E "^$source/(src|backends|picture)/" | grep -E '/cgt_(objects|[a-z_]*archive_objects|kernel_[a-z0-9]+)\.dir/' |
+        grep -E "^$source/(src|backends|picture|figure)/" | grep -E '/cgt_(objects|[a-z_]*archive_objects|kernel_[a-z0-9]+)\.dir/' |
         sed -E 's/ -o [^ ]*//; s/ -O[0-9s]?//g; s/ -g[0-9]?//g; s/ -DNDEBUG//g' | while read -r file command; do
         printf '%s %s\n' "$file" "$(printf '%s\n' "$command" | tr -s ' ' '\n' | LC_ALL=C sort -u | tr '\n' ' ')"
     done | LC_ALL=C sort

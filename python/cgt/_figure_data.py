@@ -1,0 +1,289 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+"""What figures draw, from the objects that others have it in: arrays, frames, meshes, atoms."""
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import Any, Dict, Iterator, Optional
+
+import numpy as np
+
+from . import _arrays
+from ._arrays import F4, F8, U4, Hold, array_of, check_shape, numbers
+from ._native import InvalidArgument, real, whole
+from .trajectory import Trajectory, TrajectoryFrame, TrajectorySlice
+
+_WHOLE = ("id", "type", "element")
+_OWN = {"x", "y", "z", "vx", "vy", "vz", "radius", *_WHOLE}  # columns of files that frames have as attributes
+
+
+class FigureData:
+    """A frame as <cgt/figure.h> takes it: arrays of its types, which C copies."""
+
+    def __init__(self, positions, *, radius=None, columns: Optional[Mapping] = None, bonds=None, cell=None, pbc=True,
+                 triangles=None, corner=(0.0, 0.0, 0.0), unwrapped=(0, 0, 0), angstrom: float = 1.0,
+                 number: Optional[int] = None, step: Optional[int] = None, time: Optional[float] = None,
+                 origin=None, unread=()):
+        self.positions = _floats("positions", positions, ("n", 3))
+        count = len(self.positions)
+        self.columns: Dict[str, Any] = {}
+        self.radius, self.angstrom, self.origin = 0.0, real("angstrom", angstrom), origin
+        for name, values in dict(() if columns is None else columns).items():
+            self.columns[str(name)] = _column(str(name), values, count)
+        if radius is not None and array_of("radius", radius).ndim:
+            self.columns["radius"] = numbers("radius", radius, F4, (count,))
+        elif radius is not None:
+            self.columns.pop("radius", None)
+            self.radius = real("radius", radius)
+        self.triangles = None if triangles is None else numbers("triangles", triangles, U4, ("m", 3))
+        self.bonds = None
+        if bonds is not None:
+            pairs = array_of("bonds", bonds)
+            self.bonds = numbers("bonds", pairs if pairs.size else np.empty((0, 2), U4), U4, ("m", 2))
+        self.edges = None
+        if cell is not None:
+            edges = numbers("cell", cell, F8)
+            self.edges = np.diag(edges) if edges.shape == (3,) else edges
+            check_shape("cell", self.edges, (3, 3))
+            self.periodic = np.broadcast_to(np.asarray(pbc), (3,)).astype(np.int8)
+            self.corner, self.unwrapped = numbers("corner", corner, F8, (3,)), np.asarray(unwrapped) != 0
+        self.number, self.step, self.time, self.unread = number, step, time, unread
+
+    def fill(self, ffi, number: int, origin, keep: list):
+        """The C struct, and in `keep` what it points to."""
+        c = ffi.new("cgt_figure_data *")
+        c.number = whole("number", number, 0, 2**63) if self.number is None else whole("number", self.number, 0, 2**63)
+        c.step = c.number if self.step is None else whole("step", self.step, -2**63, 2**63 - 1)
+        if self.time is not None:
+            keep.append(ffi.new("double *", float(self.time)))
+            c.time = keep[-1]
+        c.angstrom, c.origin = self.angstrom, origin
+        points = c.points
+        points.count, points.radius = len(self.positions), self.radius
+        self._set(points.positions, self.positions, keep)
+        columns = ffi.new("cgt_figure_column[]", len(self.columns))
+        for column, (name, values) in zip(columns, self.columns.items()):
+            keep.append(ffi.new("char[]", name.encode(errors="replace")))
+            column.name = keep[-1]
+            if isinstance(values, tuple):
+                values, words = values
+                keep += [ffi.new("char[]", str(word).encode(errors="replace")) for word in words]
+                keep.append(ffi.new("const char *[]", keep[len(keep) - len(words):]))
+                column.words, column.word_count = keep[-1], len(words)
+            self._set(column.values, values, keep)
+        keep.append(columns)
+        points.columns, points.column_count = columns, len(self.columns)
+        if self.triangles is not None:
+            c.triangles.count = len(self.triangles)
+            self._set(c.triangles.corners, self.triangles, keep)
+        if self.bonds is not None:
+            keep.append(np.array(self.bonds, order="C"))  # C checks them, and reads them again
+            c.bonds.count, c.bonds.ends = len(self.bonds), _arrays.pointer(keep[-1])
+        if self.edges is not None:
+            box = c.box
+            box.corner, box.edges, box.periodic = self.corner.tolist(), self.edges.tolist(), self.periodic.tolist()
+            box.unwrapped = self.unwrapped.tolist()
+        return c
+
+    @staticmethod
+    def _set(struct, values, keep) -> None:
+        keep.append(Hold(np.ascontiguousarray(values)))
+        _arrays.set_array(struct, keep[-1].view, 0)
+
+
+def _floats(name: str, values, shape) -> np.ndarray:
+    a = array_of(name, values)
+    return numbers(name, a, a.dtype if a.dtype == F4 else F8, shape)
+
+
+def _column(name: str, values, count: int):
+    """Numbers of a column, or words: which of them, from 1 on, and the list."""
+    a = array_of(f"columns: {name}", values, np.nan)
+    if a.dtype == object:
+        a = a.astype(str)
+    if a.dtype.kind in "US":
+        check_shape(f"columns: {name}", a, (count,))
+        words, place = np.unique(a.astype(str), return_inverse=True)
+        return (place.reshape(-1) + 1).astype(F4), words.tolist()
+    if name in _WHOLE:
+        return numbers(name, a, U4, (count,))
+    if name in ("velocity", "normal", "rgb"):
+        return numbers(name, a, F4, (count, 3))
+    a = a.astype(F4) if a.dtype.kind == "b" else a
+    return _floats(f"columns: {name}", a, (count,))
+
+
+# ---- one frame ----
+
+
+def take(given, **more) -> FigureData:
+    """The frame that an object is; `more` replaces what it says."""
+    if isinstance(given, (Trajectory, TrajectorySlice)):
+        raise InvalidArgument(f"data: {given!r}: show() takes one of its frames; survey() and movie() take all")
+    if isinstance(given, (str, os.PathLike)):
+        raise InvalidArgument(f"data: {given!r}: cgt.read opens files, and its frames are data")
+    if isinstance(given, TrajectoryFrame):
+        found = _of_frame(given)
+    elif hasattr(given, "get_atomic_numbers"):
+        found = _of_ase(given)
+    elif hasattr(given, "atoms") and hasattr(given.atoms, "positions"):
+        found = _of_mdanalysis(given.atoms)
+    elif hasattr(given, "xyz") and hasattr(given, "topology"):
+        found = _of_mdtraj(given)
+    elif hasattr(given, "vertices") and hasattr(given, "faces"):
+        found = {"positions": given.vertices, "triangles": given.faces}
+    elif isinstance(given, tuple) and len(given) == 2 and all(np.ndim(part) == 2 for part in given):
+        found = {"positions": given[0], "triangles": given[1]}
+    elif hasattr(given, "columns") and hasattr(given, "to_numpy"):
+        names = [name for name in given.columns if name not in ("x", "y", "z")]
+        if len(names) + 3 != len(given.columns):
+            raise InvalidArgument("data: a table needs columns x, y and z")
+        found = {"positions": np.column_stack([np.asarray(given[name], float) for name in "xyz"]),
+                 "columns": {name: np.asarray(given[name]) for name in names}}
+    else:
+        found = {"positions": given}
+    more = {name: value for name, value in more.items() if value is not None}
+    if "columns" in more:
+        table = more["columns"]
+        table = {name: table[name] for name in table} if hasattr(table, "to_numpy") else dict(table)
+        more["columns"] = {**found.get("columns", {}), **table}
+    return FigureData(**{**found, **more})
+
+
+def _of_frame(f: TrajectoryFrame) -> dict:
+    """A frame as cgt.read gives it: nothing is lost, so that pictures have the bytes of cgt-render."""
+    positions, columns = f.positions, {}
+    if f.origin.any():  # C subtracts it again
+        positions = positions.astype(F8) + f.origin
+    for name, values in (("radius", f.radii), ("element", f.elements), ("type", f.types), ("id", f.ids),
+                         ("velocity", f.velocities), ("normal", f.vertex_normals)):
+        if values is not None:
+            columns[name] = values
+    columns.update((name, values) for name, values in f.columns.items() if name not in _OWN)
+    found = {"positions": positions, "columns": columns, "triangles": f.triangles, "bonds": f.bonds,
+             "angstrom": f.angstrom, "number": f.number, "step": f.step, "origin": f.origin.tolist(),
+             "time": None if np.isnan(f.time) else f.time, "unread": set(f.column_names) - set(f.columns)}
+    if f.box_edges is not None:
+        found.update(cell=f.box_edges, corner=f.box_origin + f.origin, pbc=f.periodic, unwrapped=f.unwrapped)
+    return found
+
+
+def _of_ase(atoms) -> dict:
+    columns = {"element": atoms.get_atomic_numbers()}
+    for name, values in getattr(atoms, "arrays", {}).items():
+        if name not in ("numbers", "positions", "momenta") and np.ndim(values) == 1:
+            columns["type" if name == "types" else name] = values
+    if "momenta" in getattr(atoms, "arrays", {}):
+        columns["velocity"] = atoms.get_velocities()
+    forces = getattr(getattr(atoms, "calc", None), "results", {}).get("forces")
+    if forces is not None and np.shape(forces) == np.shape(atoms.get_positions()):
+        columns.update(zip(("fx", "fy", "fz"), np.transpose(forces)))
+    found = {"positions": atoms.get_positions(), "columns": columns}
+    edges = getattr(getattr(atoms, "cell", None), "array", None)
+    if edges is not None and edges.any():  # sheets and chains have edges of no length
+        found.update(cell=edges, pbc=atoms.pbc & edges.any(axis=1))
+    return found
+
+
+def _of_mdanalysis(atoms) -> dict:
+    columns: Dict[str, Any] = {"id": np.asarray(getattr(atoms, "indices", np.arange(len(atoms.positions)))) + 1}
+    for name, attribute in (("name", "names"), ("resname", "resnames"), ("resid", "resids"), ("chain", "chainIDs"),
+                            ("segment", "segids"), ("charge", "charges"), ("mass", "masses")):
+        values = getattr(atoms, attribute, None)
+        if values is not None:
+            columns[name] = values
+    columns.update(_kinds_of(atoms))
+    found: Dict[str, Any] = {"positions": atoms.positions, "columns": columns, "bonds": _bonds_among(atoms)}
+    universe = getattr(atoms, "universe", None)
+    step = getattr(universe, "trajectory", None)
+    sides = getattr(universe, "dimensions", None)
+    if sides is not None and np.all(sides[:3] > 0):
+        from MDAnalysis.lib.mdamath import triclinic_vectors
+
+        found["cell"] = triclinic_vectors(sides)
+    if step is not None:
+        found.update(number=int(step.ts.frame), time=float(step.ts.time))
+        if getattr(step.ts, "has_velocities", False):
+            columns["velocity"] = atoms.velocities
+    return found
+
+
+def _kinds_of(atoms) -> dict:
+    """Elements of MDAnalysis' atoms, by element, else type; else their types by numbers."""
+    try:
+        from MDAnalysis.guesser import tables  # from 2.8 on
+    except ImportError:
+        from MDAnalysis.topology import tables
+    for name in ("elements", "types"):
+        given = getattr(atoms, name, None)
+        found = np.array([tables.SYMB2Z.get(str(s).capitalize(), 0) for s in (() if given is None else given)], int)
+        if found.any():
+            return {"element": found}
+    types = getattr(atoms, "types", None)
+    return {} if types is None else {"type": np.unique(np.asarray(types, str), return_inverse=True)[1] + 1}
+
+
+def _bonds_among(atoms) -> Optional[np.ndarray]:
+    """The bonds of MDAnalysis' atoms, by their places among these; None: it has none."""
+    pairs = getattr(atoms, "bonds", None)
+    if pairs is None:
+        return None
+    pairs = np.asarray(pairs.indices).reshape(-1, 2)
+    order = np.argsort(atoms.indices)
+    place = np.minimum(np.searchsorted(atoms.indices, pairs, sorter=order), len(order) - 1)
+    return order[place][(atoms.indices[order[place]] == pairs).all(axis=1)]
+
+
+def _of_mdtraj(run) -> dict:
+    if len(run.xyz) != 1:
+        raise InvalidArgument(f"data: {len(run.xyz)} frames: one of them, such as traj[0]; a movie takes all")
+    atoms, time = list(run.topology.atoms), getattr(run, "time", None)
+    columns = {"element": np.array([a.element.atomic_number if a.element else 0 for a in atoms], U4),
+               "name": [a.name for a in atoms], "resname": [a.residue.name for a in atoms],
+               "resid": [a.residue.resSeq for a in atoms],
+               "chain": [str(getattr(a.residue.chain, "chain_id", None) or a.residue.chain.index) for a in atoms]}
+    pairs = np.array([[b[0].index, b[1].index] for b in run.topology.bonds], int).reshape(-1, 2)
+    found = {"positions": run.xyz[0], "columns": columns, "angstrom": 0.1,  # in nanometres
+             "bonds": pairs if len(pairs) else None}
+    if time is not None:
+        found["time"] = float(time[0])
+    if run.unitcell_vectors is not None:
+        found["cell"] = run.unitcell_vectors[0]
+    return found
+
+
+# ---- runs ----
+
+
+def is_run(given) -> bool:
+    """Whether an object is frames one after the other."""
+    if isinstance(given, (Trajectory, TrajectorySlice)) or hasattr(given, "trajectory"):
+        return True
+    if isinstance(given, (str, bytes)):
+        return False
+    if hasattr(given, "xyz") and hasattr(given, "topology"):
+        return len(given.xyz) != 1
+    return not isinstance(given, tuple) and hasattr(given, "__iter__") and not hasattr(given, "__array__") and not any(
+        hasattr(given, name) for name in ("atoms", "get_atomic_numbers", "faces", "to_numpy", "column_names")) and (
+            not isinstance(given, list) or bool(given) and not _is_place(given[0]))
+
+
+def _is_place(thing) -> bool:
+    """Whether this begins a list of places: it is no frame."""
+    return isinstance(thing, (list, tuple, np.ndarray)) and np.ndim(thing) < 2 or np.isscalar(thing)
+
+
+def frames_of(run) -> Iterator[Any]:
+    """The frames of a run; those of MDAnalysis are what was given, at one time after the other."""
+    steps = getattr(run, "trajectory", None)
+    if steps is None and hasattr(run, "atoms"):
+        steps = getattr(getattr(run, "universe", None), "trajectory", None)
+    if steps is not None:
+        for _ in steps:
+            yield run
+    elif hasattr(run, "xyz") and hasattr(run, "topology"):
+        for k in range(len(run.xyz)):
+            yield run[k]
+    else:
+        yield from run

@@ -1,0 +1,328 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+"""Figures: what options and data of Python's mean; the same data from other packages; movies, the window. That pictures
+have the bytes of cgt-render is compared by tests/figure/doors.sh."""
+import copy
+import importlib.machinery
+import importlib.util
+import json
+import os
+import pickle
+import shutil
+import subprocess
+import sys
+import types
+
+import numpy as np
+import pytest
+
+try:
+    import cgt.figure
+    from cgt import _show
+except ImportError as error:
+    pytest.skip(str(error), allow_module_level=True)
+
+SIZE = {"size": (60, 40)}
+X = np.array([[0.0, 0, 0], [2, 0, 0], [4, 0.5, 1]])
+PAIRS = [[0, 1], [1, 2]]
+
+
+def pixels(data, options=(), **more):
+    return cgt.Figure(**SIZE, **dict(options)).show(data, **more).pixels
+
+
+def same(*pictures):
+    return all(np.array_equal(pictures[0], p) for p in pictures[1:]) and pictures[0].std() > 5
+
+
+def test_values_become_texts():
+    camera = cgt.Camera((0, -9, 1), up=(0, 0, 1))
+    figure = cgt.Figure(size=(60, 40), antialias=np.int64(2), camera=camera, title="A = b", range=[0.5, np.float32(2)],
+                        show=["x > 0", "y < 2"], sun=[(1, 2, 3), (3, 2, 1, 0.5)], bonds=True,
+                        lamp=(1, 2, 3.5), type_color={"O": "Tomato", 2: "#48f"}, background=(1.0, 0, 0), color="ff8000",
+                        shadows=False, log_scale=False, floor="forestgreen", fov=None)
+    assert figure.settings == """size = 60x40
+antialias = 2
+camera = 0,-9,1,0,0,0,0,0,1,45
+title = A = b
+range = 0.5,2.0
+show = x > 0
+show = y < 2
+sun = 1,2,3
+sun = 3,2,1,0.5
+bonds
+lamp = 1,2,3.5
+type-color = O=ff6347
+type-color = 2=4488ff
+background = ff0000
+color = ff8000
+no-shadows
+floor = 228b22
+"""
+    for other in (cgt.Figure(**figure.options), copy.copy(figure), pickle.loads(pickle.dumps(figure))):
+        assert other.settings == figure.settings and other.options == figure.options
+    figure.set(bonds=1.5, show="z > 0", shadows=True).unset("camera", "sun")
+    assert figure.options["show"] == ["z > 0"] and figure.options["bonds"] == "1.5" and "sun" not in figure.options
+    assert figure.options["shadows"] is True and "no_shadows" not in figure.options
+    assert cgt.Figure(camera=cgt.Camera((0, -9, 1), projection="orthographic")).options["ortho"] is True
+    figure.unset().set(color="y", arrows=("x", "y", 1), lamp=[(1, 2, 3, 0.5, "y")], floor="y")
+    assert list(figure.options.values()) == ["y", "x,y,1", ["1,2,3,0.5,bfbf00"], "bfbf00"]
+    assert figure.unset().options == {} and figure.size == (1280, 720)
+    assert cgt.Figure(material={"all": "glass"}, bounces=3).settings == "material = all=glass\nbounces = 3\n"
+    known = cgt.figure.options()
+    assert known["text_size"].kind == "number" and known["style"].words == ("soft", "paper", "plain")
+
+
+def test_what_is_refused_changes_nothing():
+    figure = cgt.Figure(**SIZE, color="v").show(X, columns={"v": [1, 2, 3]})
+    before, settings = figure.pixels, figure.settings
+    for options, message in (
+        ({"colour": 1}, "there is no option 'colour': did you mean color"),
+        ({"title": True}, "title: True: must have a value, TEXT"),
+        ({"fov": "wide"}, "fov: "), ({"fov": {1: 2}}, "fov: it takes no dictionary"),
+        ({"style": "paper", "antialias": 3}, "antialias: 3 is not 1, 2 or 4"),
+        ({"material": {2: "glass"}}, "material is for bounces"), ({"size": object()}, "size: <object"),
+        ({"show": "x >"}, "show: "), ({"camera_keys": "x"}, "camera.keys"),
+        ({"title": "a\0b"}, "title: .*C cannot read"), ({"title": "a\nb"}, "title: .*C cannot read"),
+    ):
+        with pytest.raises(cgt.InvalidArgument, match=message):
+            figure.set(**options)
+        assert figure.settings == settings and figure.draw() is not before and np.array_equal(figure.pixels, before)
+    for data, more, message in (
+        (X, {"columns": {"v": [1, 2]}}, r"columns: v: shape \(2,\): must be \(3,\)"),
+        (X, {"columns": {"u": [1, 2, 3]}}, 'no column "v", but x, y, z, u'),
+        (X, {"columns": {"type": [1, 2, -1]}}, "type: -1 to 2: must fit uint32"),
+        (X, {"bonds": [[0, 3]]}, "bond 0 ends at 3"), ((X, [[0, 1, 3]]), {}, "triangle 0 has the corner 3"),
+        (X, {"cell": [[1, 2]]}, "cell: shape"), ([], {}, "positions: shape"), (X[:, :2], {}, "positions: shape"),
+        ({"x": 1}, {}, "positions"), (X, {"number": -1}, "number: -1"), (X, {"colour": 1}, "colour"),
+        ("a.xyz", {}, "data: 'a.xyz': cgt.read opens files"), (None, {}, "positions"), (5.0, {}, "positions: shape"),
+    ):
+        with pytest.raises((cgt.InvalidArgument, TypeError), match=message):
+            figure.show(data, **more)
+    with pytest.raises(cgt.InvalidArgument, match="nothing is shown"):
+        cgt.Figure().draw()
+    with pytest.raises(cgt.InvalidArgument, match="a run without frames"):
+        cgt.Figure().survey(iter(()))
+    figure.close()
+    with pytest.raises(cgt.InvalidArgument, match="figure: it is closed"):
+        figure.draw()
+
+
+def test_options_count_at_once_and_surveys_for_a_run():
+    figure = cgt.Figure(**SIZE, style="plain").show(X, radius=0.5)
+    first = figure.pixels
+    assert figure.pixels is first and same(figure.set(color="red").pixels, pixels(X, {"style": "plain", "color": "red"},
+                                                                                 radius=0.5))
+    run = [X * scale for scale in (1, 2, 5)]
+    surveyed = cgt.Figure(**SIZE).survey(run)
+    assert not np.array_equal(surveyed.show(X).camera.eye, cgt.Figure(**SIZE).show(X).camera.eye)
+    assert same(surveyed.show(X).pixels, cgt.Figure(**SIZE).survey(iter(run)).show(X).pixels)
+    with pytest.raises(cgt.InvalidArgument, match="nothing is shown"):
+        surveyed.set(color="red").draw()
+    turned = surveyed.show(X).camera
+    turned.orbit(90)
+    surveyed.camera = turned
+    assert not np.array_equal(surveyed.draw(), before := surveyed.show(run[2]).pixels) and before.std() > 5
+    assert np.array_equal(surveyed.camera.eye, turned.eye) and not np.array_equal(surveyed.fit().camera.eye, turned.eye)
+    hit = cgt.Figure(**SIZE, view="front").show(X[:1], radius=2).pick(30, 20)
+    assert hit.is_hit and hit.is_data and hit.element == 0 and np.linalg.norm(hit.place) == pytest.approx(2, 1e-3)
+    far = cgt.Figure(**SIZE).show(X + 1e7)
+    assert same(far.pixels, pixels(X)) and abs(far.camera.target).max() < 10
+    wall = cgt.Figure(**SIZE).set_mesh((X + [0, 2, 0], [[0, 1, 2]])).show(X)
+    assert not np.array_equal(wall.pixels, pixels(X)) and wall.set_mesh(None).show(X).pixels.std() > 5
+    clear = cgt.Figure(**SIZE, transparent=True).show(X)
+    assert clear.pixels.shape == (40, 60, 4) and set(clear.pixels[..., 3].ravel()) >= {0, 255}
+    assert any("log_scale" in text for text in cgt.Figure(**SIZE, color="x", log_scale=True).show(X[:1] - 1).notices)
+
+
+def test_show_is_a_figure_in_a_line():
+    plain = cgt.show(X, 0.5, **SIZE)
+    assert isinstance(plain, cgt.Figure) and plain._repr_png_()[1:4] == b"PNG" and cgt.Figure()._repr_png_() is None
+    assert same(cgt.show(X, 0.5, "r", **SIZE).pixels, cgt.show(X, 0.5, ["red"] * 3, **SIZE).pixels,
+                cgt.show(X, 0.5, (1.0, 0, 0), **SIZE).pixels, cgt.show(X, [0.5] * 3, [[1, 0, 0]] * 3, **SIZE).pixels,
+                cgt.show(X, 0.5, np.full((3, 3), [255, 0, 0], "u1"), **SIZE).pixels)
+    values = np.array([3.0, 1, 2])
+    assert same(cgt.show(np.tile(X, (2, 1)), 0.5, np.tile(values, 2), **SIZE).pixels,
+                pixels(np.tile(X, (2, 1)), {"color": "v"}, radius=0.5, columns={"v": np.tile(values, 2)}))
+    assert same(cgt.show(X, 0.3, bonds=PAIRS, **SIZE).pixels, pixels(X, {"bonds": True}, radius=0.3, bonds=PAIRS))
+    assert same(cgt.show(X, 0.3, bonds=2.5, **SIZE).pixels, pixels(X, {"bonds": 2.5}, radius=0.3))
+    with pytest.raises(cgt.InvalidArgument, match="bonds: the file has no bonds"):
+        cgt.show(X, bonds=True, **SIZE)
+    with pytest.raises(cgt.InvalidArgument, match="colors: color says another thing"):
+        cgt.show(X, colors="red", color="x")
+
+
+def test_other_packages_have_the_same_data(tmp_path):
+    mesh = [[0, 1, 2]]
+    assert same(pixels((X, mesh)), pixels(types.SimpleNamespace(vertices=X, faces=mesh)))
+    water = np.array([[0.0, 0, 0.1], [0.76, 0, 0.69], [-0.76, 0, 0.69]])
+    options, pairs = {"bonds": True, "radius_scale": 0.4}, [[0, 1], [0, 2]]
+    wanted = pixels(water, options, columns={"element": [8, 1, 1]}, bonds=pairs)
+    try:
+        import ase
+    except ImportError:
+        pass
+    else:
+        atoms = ase.Atoms("OHH", water)
+        assert same(pixels(atoms, options, bonds=pairs), wanted)
+        atoms.set_cell([0.9, 9, 9])
+        atoms.pbc = True
+        assert same(pixels(atoms, {"box": True}), pixels(water, {"box": True}, columns={"element": [8, 1, 1]},
+                                                         cell=[0.9, 9, 9]))
+    try:
+        import pandas
+    except ImportError:
+        pass
+    else:
+        table = pandas.DataFrame({"kind": ["a", "b", "a"], **dict(zip("xyz", water.T))})
+        kinds = {"show": 'kind == "a"'}
+        by_words = pixels(water, kinds, columns=table[["kind"]])
+        assert same(pixels(table, kinds), by_words, pixels(water, {"show": "x <= 0"}))
+        with pytest.raises(cgt.InvalidArgument, match="a table needs columns x, y and z"):
+            pixels(table[["x", "y"]])
+    path = tmp_path / "water.xyz"
+    path.write_text("3\n\n" + "".join(f"{s} {x} {y} {z}\n" for s, (x, y, z) in zip("OHH", water)))
+    assert same(pixels(cgt.read(path, all_bonds=True).read(), options), wanted)
+    path.write_text("1\nProperties=species:S:1:pos:R:3:charge:R:1\nO 0 0 0 5\n")
+    with pytest.raises(cgt.InvalidArgument, match="the file has it: cgt.read.*'charge'"):
+        pixels(cgt.read(path).read(), {"color": "charge"})
+    assert same(cgt.Figure(**SIZE, color="charge").survey(run := cgt.read(path)).show(run[0]).pixels,
+                pixels(cgt.read(path, columns="charge").read(), {"color": "charge"}))
+    residue = types.SimpleNamespace(name="HOH", resSeq=1, chain=types.SimpleNamespace(index=0))
+    kinds = [types.SimpleNamespace(element=types.SimpleNamespace(atomic_number=z), name=s, residue=residue, index=k)
+             for k, (z, s) in enumerate([(8, "O"), (1, "H1"), (1, "H2")])]
+    topology = types.SimpleNamespace(atoms=kinds, bonds=[(kinds[0], kinds[1]), (kinds[0], kinds[2])])
+    nanometres = types.SimpleNamespace(xyz=water[None] / 10, topology=topology, time=[1.0], unitcell_vectors=None)
+    close = pixels(nanometres, options).astype(int) - wanted
+    assert (abs(close) > 2).mean() < 0.02  # rounded another way
+    assert pixels(nanometres, {"show": "resname == HOH and name == O"}).std() > 5
+
+
+def test_universes_of_mdanalysis():
+    MDAnalysis = pytest.importorskip("MDAnalysis")
+    universe = MDAnalysis.Universe.empty(3, trajectory=True)
+    universe.atoms.positions = X
+    assert same(pixels(universe), pixels(X.astype("f4"), columns={"id": [1, 2, 3]}))
+    with pytest.raises(cgt.InvalidArgument, match="bonds: the file has no bonds"):
+        pixels(universe, {"bonds": True})
+    universe.add_TopologyAttr("bonds", PAIRS)
+    universe.add_TopologyAttr("elements", ["O", "H", "H"])
+    universe.add_TopologyAttr("names", ["OW", "HW1", "HW2"])
+    universe.dimensions = [3, 9, 9, 90, 90, 90]
+    assert same(pixels(universe, {"bonds": True}), pixels(X, {"bonds": True}, columns={"element": [8, 1, 1]},
+                                                          bonds=PAIRS, cell=[3, 9, 9]))
+    part = universe.atoms[[2, 1]]
+    assert same(pixels(part, {"bonds": True}), pixels(X[[2, 1]], {"bonds": True}, columns={"element": [1, 1]},
+                                                      bonds=[[0, 1]], cell=[3, 9, 9]))
+    assert same(*(pixels(universe, {"show": rule}) for rule in ("name == OW", "element == O", "id == 1")))
+
+
+def test_movies(tmp_path, monkeypatch):
+    run = [X + [0, 0, k] for k in range(4)]
+    figure = cgt.Figure(size=(61, 40))
+    for path, data, message in (("a.avi", run, "path: .avi: movies are .gif"), ("a.mp4", X, "run: ndarray"),
+                                ("a.mp4", [], "run: list")):
+        with pytest.raises(cgt.InvalidArgument, match=message):
+            figure.movie(tmp_path / path, data)
+    if shutil.which("ffmpeg"):
+        for name in ("a.mp4", "a.gif"):
+            figure.movie(tmp_path / name, (x for x in run), fps=10, progress=False)
+            command = ["ffmpeg", "-v", "error", "-i", tmp_path / name, "-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
+            raw = subprocess.run(command, capture_output=True, check=True).stdout
+            width = 61 if name == "a.gif" else 62
+            last = np.frombuffer(raw, "u1").reshape(4, 40, width, 3)[-1, :, :61]
+            assert abs(last.astype(int) - figure.pixels).mean() < 6
+        with pytest.raises(cgt.InvalidArgument, match="positions: shape"):
+            figure.movie(tmp_path / "b.mp4", [*run, X[:, :2]], survey=False, progress=False)
+        assert sorted(os.listdir(tmp_path)) == ["a.gif", "a.mp4"]
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(cgt.InvalidArgument, match="movies need the program ffmpeg"):
+        figure.movie(tmp_path / "a.mp4", run)
+
+
+def test_show_opens_the_window(tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(cgt.InvalidArgument, match="no cgt-view"):
+        cgt.show(X, window=True, **SIZE)
+    view = tmp_path / "cgt-view"
+    view.write_text('#!/bin/sh\nprintf "%s\\n" "$@" >"$0.args"\n/bin/cp "$2" "$0.settings"\n/bin/cp "$3" "$0.file"\n')
+    view.chmod(0o755)
+    cgt.show(X, [0.5, 0.5, 1], window=False, **SIZE)
+    assert not (tmp_path / "cgt-view.args").exists()
+    cgt.show(X, [0.5, 0.5, 1], "q", columns={"type": [2, 1, 2], "q": [1, 2.5, 3]}, window=True, **SIZE)
+    _show._Window._open[-1].process.wait()
+    assert (tmp_path / "cgt-view.settings").read_text() == "size = 60x40\ncolor = q\n"
+    frame = cgt.read(tmp_path / "cgt-view.file", format="xyz", columns="q").read()
+    assert np.array_equal(frame.positions, X) and frame.radii.tolist() == [0.5, 0.5, 1]
+    assert frame.types.tolist() == [2, 1, 2] and frame["q"].tolist() == [1, 2.5, 3]
+    monkeypatch.setattr(_show, "_can_open", lambda: True)
+    (tmp_path / "cgt-view.args").unlink()
+    cgt.show(X, **SIZE)  # at a prompt
+    _show._Window._open[-1].process.wait()
+    assert (tmp_path / "cgt-view.args").exists()
+    folders = [window.folder for window in _show._Window._open]
+    _show._Window._close_all()
+    assert not any(os.path.exists(folder) for folder in folders)
+
+
+PAGE = """
+import page from PATH;
+const sent = [], listeners = {}, taken = [];
+const image = { style: {}, addEventListener: (name, f) => { listeners[name] = f; }, setPointerCapture() {} };
+globalThis.document = { createElement: () => image };
+URL.createObjectURL = (blob) => `blob ${blob.size}`;
+URL.revokeObjectURL = (url) => taken.push(url);
+let hear = null;
+const model = { send: (m) => sent.push({ ...m }), on: (_, f) => { hear = f; }, off() {} };
+page.render({ model, el: { appendChild() {} } });
+const picture = () => hear({ width: 60 }, [new Uint8Array(5)]);
+picture();
+listeners.pointermove({ clientX: 9, clientY: 9 }); // nothing is held
+listeners.pointerdown({ clientX: 1, clientY: 1, pointerId: 1 });
+for (const k of [4, 6, 9]) listeners.pointermove({ clientX: k, clientY: 1 }); // two while one is under way
+picture();
+listeners.pointerup();
+picture();
+picture();
+listeners.wheel({ preventDefault() {}, deltaY: 500 });
+picture();
+listeners.dblclick();
+console.log(JSON.stringify({ sent, src: image.src, width: image.width, taken: taken.length }));
+"""
+
+
+def test_the_mouse_turns_it_in_a_notebook(tmp_path, monkeypatch):
+    figure = cgt.Figure(**SIZE).show(X)
+    if importlib.util.find_spec("anywidget") is None:
+        assert figure._repr_mimebundle_() is None  # then _repr_png_ counts
+        sent, calls = [], {"on_msg": lambda self, call: None, "_repr_mimebundle_": lambda self: ({"a/view": {}}, {})}
+        base = type("AnyWidget", (), {**calls, "send": lambda self, *a, **b: sent.append((a, b))})
+        module = types.ModuleType("anywidget")
+        module.AnyWidget, module.__spec__ = base, importlib.machinery.ModuleSpec("anywidget", None)
+        monkeypatch.setitem(sys.modules, "anywidget", module)
+    else:
+        pytest.skip("anywidget wants a kernel")
+    bundle = figure._repr_mimebundle_()
+    assert set(bundle) == {"a/view", "image/png", "text/plain"} and bundle["image/png"] == figure._repr_png_()
+    from cgt import _widget
+
+    widget, still = _widget.Turned(figure), {"x": 0, "y": 0, "zoom": 1, "fit": False, "rest": True}
+    first, eyes, distances = figure.pixels, [figure.camera.eye], []
+    for told in ({}, {"x": 30, "rest": False}, {"y": 900}, {"zoom": 2}, {"fit": True}):
+        widget._hear(widget, {**still, **told}, None)
+        eyes.append(figure.camera.eye)
+        distances.append(np.linalg.norm(eyes[-1] - figure.camera.target))
+        assert sent[-1][0] == ({"width": 60},) and sent[-1][1]["buffers"][0][1:4] == b"PNG"
+    assert np.array_equal(eyes[0], eyes[1]) and abs(eyes[2][2] - eyes[1][2]) < 1e-4 and eyes[3][2] > eyes[2][2]
+    assert distances[:4] == pytest.approx([distances[0] * k for k in (1, 1, 1, 2)], 1e-5)
+    assert distances[4] < distances[3] and not np.array_equal(figure.pixels, first)
+    node = shutil.which("node")
+    if node is None:
+        return
+    (tmp_path / "page.mjs").write_text(_widget.Turned._esm)
+    (tmp_path / "test.mjs").write_text(PAGE.replace("PATH", '"./page.mjs"'))
+    found = json.loads(subprocess.run([node, tmp_path / "test.mjs"], capture_output=True, check=True).stdout)
+    assert [(m["x"], m["zoom"], m["fit"], m["rest"]) for m in found["sent"]] == [
+        (0, 1, False, True), (3, 1, False, False), (5, 1, False, False), (0, 1, False, True),
+        (0, pytest.approx(np.e), False, True), (0, 1, True, True)]
+    assert found["src"] == "blob 5" and found["width"] == 60 and found["taken"] == 4
