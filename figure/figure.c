@@ -114,9 +114,13 @@ static cgt_figure_kind kind_of(const option_row *row)
     case OPTION_TEXT: return CGT_FIGURE_TEXT;
     default: break;
     }
-    return row->parse == cgt_parse_color || row->parse == cgt_parse_floor    ? CGT_FIGURE_COLOR
-           : row->parse == cgt_parse_formula || row->parse == cgt_parse_show ? CGT_FIGURE_FORMULA
-                                                                             : CGT_FIGURE_LIST;
+    if (row->parse == cgt_parse_color || row->parse == cgt_parse_floor)
+        return CGT_FIGURE_COLOR;
+    if (row->parse == cgt_parse_label_text)
+        return CGT_FIGURE_TEXT;
+    return row->parse == cgt_parse_formula || row->parse == cgt_parse_show || row->parse == cgt_parse_label
+               ? CGT_FIGURE_FORMULA
+               : CGT_FIGURE_LIST;
 }
 
 bool cgt_figure_get_option(uint32_t index, cgt_figure_option *option)

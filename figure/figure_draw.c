@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "data/element_symbols.h"
+#include "text/labels.h"
 
 static void set_first_light(const cgt_figure *figure, cgt_picture_light *light)
 {
@@ -130,7 +131,7 @@ static void choose_bar(cgt_figure *figure)
                         "--legend: the colours are those of neither types nor elements: there is no legend");
 }
 
-/* Tells what the font lacks: it would be empty boxes. */
+/* Tells what no font has: it would be empty boxes. */
 static void check_glyphs(cgt_figure *figure)
 {
     const overlay *v = &figure->overlay;
@@ -144,19 +145,48 @@ static void check_glyphs(cgt_figure *figure)
         first = first ? first : code;
     }
     if (first)
-        cgt_notices_add(
-            &figure->notices,
-            "the font lacks %s: boxes stand in their place; --font takes another one, and 'fc-list :charset=%" PRIx32
-            "' tells which have them",
-            missing, first);
+        cgt_notices_add(&figure->notices,
+                        "no font is found for %s: boxes stand in their place; --font takes another one, and 'fc-list "
+                        ":charset=%" PRIx32 "' tells which have them",
+                        missing, first);
 }
 
-static int choose_overlay(cgt_figure *figure)
+/* Frames with the extremes of all that were looked at: with their times, and where some are unknown without. */
+static void choose_extremes(cgt_figure *figure)
+{
+    const survey *const s = &figure->survey;
+    const survey_times *const t = &s->times;
+    const uint64_t last = s->has_total && s->total ? s->total - 1 : t->number_max;
+    overlay *const v = &figure->overlay;
+    v->time_letters = t->letters;
+    for (int known = 0; known < 2 && s->frames; known++)
+        for (int end = 0; end < 2 && (known ? t->time_min <= t->time_max : t->has_unknown); end++)
+            v->extreme[v->extremes++] = (overlay_frame){.number = end ? last : 0,
+                                                        .step = end ? t->step_max : t->step_min,
+                                                        .time = !known ? NAN
+                                                                : end  ? t->time_max
+                                                                       : t->time_min};
+}
+
+/* Tells what found no place. */
+static void tell_layout(cgt_figure *figure)
+{
+    static const char *const names[LAYOUT_ITEMS] = {"title", "time", "scale-bar", "colorbar", "legend", "axes"};
+    const layout *const l = &figure->overlay.layout;
+    for (int i = 0; i < LAYOUT_ITEMS; i++)
+        if (l->left_out >> i & 1u)
+            cgt_notices_add(&figure->notices, "--%s: there is no room for it in %" PRIu32 "x%" PRIu32 " pixels",
+                            names[i], figure->options.width, figure->options.height);
+        else if (l->cut >> i & 1u)
+            cgt_notices_add(&figure->notices, "--%s: it is too long, and cut short", names[i]);
+}
+
+int cgt_figure_choose_overlay(cgt_figure *figure)
 {
     const picture_options *o = &figure->options.picture;
     const uint8_t *back = o->background;
     overlay *v = &figure->overlay;
-    if (!cgt_picture_options_have_overlay(o))
+    if (v->font || !cgt_picture_options_have_overlay(o))
         return 0;
     v->size = fmaxf(8.0f, o->text_size * (float)figure->options.height);
     v->font = cgt_text_open(o->font, v->size, figure->message, sizeof figure->message);
@@ -165,6 +195,7 @@ static int choose_overlay(cgt_figure *figure)
     v->title = o->title;
     v->time = !o->time || *o->time ? o->time : "t = {time}";
     v->axes = o->axes;
+    v->scale = o->scale;
     v->coloring = &figure->coloring;
     if (figure->coloring.by == COLORING_TYPE || figure->coloring.by == COLORING_ELEMENT)
         choose_legend(figure);
@@ -174,25 +205,93 @@ static int choose_overlay(cgt_figure *figure)
     const float grey = back[0] + back[1] + back[2] > 384 ? 0.01f : 0.85f; /* dark on light, light on dark */
     for (int c = 0; c < 3; c++)
         v->color[c] = grey;
+    choose_extremes(figure);
+    cgt_overlay_place(v, figure->options.width, figure->options.height);
+    tell_layout(figure);
     return 0;
+}
+
+/* Half of the height that the camera shows, at a depth. */
+static double half_height(const cgt_camera *camera, double depth)
+{
+    const double pi = 3.14159265358979323846;
+    return camera->projection == CGT_PROJECTION_ORTHOGRAPHIC ? 0.5 * (double)camera->height
+                                                             : depth * tan((double)camera->fov * pi / 360.0);
+}
+
+static double get_depth(const cgt_camera *camera, const overlay_frame *frame, const float p[3], double at[2])
+{
+    double depth = 0.0;
+    at[0] = at[1] = 0.0;
+    for (int c = 0; c < 3; c++) {
+        const double from = (double)p[c] - (double)camera->eye[c];
+        at[0] += from * (double)frame->right[c];
+        at[1] += from * (double)frame->up[c];
+        depth += from * (double)frame->forward[c];
+    }
+    return depth;
+}
+
+/* At the places where the camera sees what they name. Tells once what has none. */
+static void draw_labels(cgt_figure *figure, const canvas *c, const overlay_frame *frame)
+{
+    const label_list *const from = &figure->parts.frame->labels;
+    text_label labels[LABELS_MOST];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < from->count; i++) {
+        const particle_label *const l = &from->list[i];
+        double at[2];
+        const double depth = get_depth(&figure->camera, frame, l->place, at);
+        const double scale = 0.5 * (double)c->height / half_height(&figure->camera, depth);
+        if (depth > 0.0)
+            labels[count++] = (text_label){(float)(0.5 * (double)c->width + scale * at[0]),
+                                           (float)(0.5 * (double)c->height - scale * at[1]),
+                                           (float)(scale * (double)l->radius), (float)depth, l->text};
+    }
+    const uint32_t dropped = cgt_labels_draw(&figure->overlay, c, labels, count);
+    if (figure->has_labels_told || (!dropped && from->matched <= LABELS_MOST))
+        return;
+    figure->has_labels_told = 1;
+    if (from->matched > LABELS_MOST)
+        cgt_notices_add(&figure->notices, "--label: the first %d of %" PRIu64 " spheres have labels", LABELS_MOST,
+                        from->matched);
+    if (dropped)
+        cgt_notices_add(&figure->notices,
+                        "--label: in frame %" PRIu64 " there is no room for %" PRIu32 " of %" PRIu32 " labels",
+                        figure->frame->number, dropped, count);
 }
 
 void cgt_figure_draw_overlay(cgt_figure *figure)
 {
     const canvas c = {figure->options.width, figure->options.height, figure->image.bytes, figure->image.alpha,
                       figure->image.linear};
-    overlay_frame frame = {.number = figure->frame->number, .step = figure->frame->step, .time = figure->frame->time};
+    overlay_frame frame = {.number = figure->frame->number,
+                           .step = figure->frame->step,
+                           .time = figure->frame->time,
+                           .angstrom = (double)figure->parts.frame->angstrom};
+    double middle[2];
     if (!figure->overlay.font)
         return;
     cgt_camera_get_axes(&figure->camera, frame.right, frame.up, frame.forward);
-    cgt_overlay_draw(&figure->overlay, &c, &frame);
+    const double depth = get_depth(&figure->camera, &frame, figure->camera.target, middle);
+    frame.pixel = 2.0 * half_height(&figure->camera, depth) / (double)c.height;
+    if (figure->parts.frame->labels.count)
+        draw_labels(figure, &c, &frame);
+    if (cgt_overlay_draw(&figure->overlay, &c, &frame) && !figure->has_scale_told) {
+        figure->has_scale_told = 1;
+        cgt_notices_add(&figure->notices,
+                        "--scale-bar: in frame %" PRIu64
+                        " this length is above 0.4 of the picture's width, or below two "
+                        "pixels: there is no bar",
+                        figure->frame->number);
+    }
 }
 
 /* ---- Pictures -------------------------------------------------------------------------------------------------- */
 
 int cgt_figure_open_picture(cgt_figure *figure)
 {
-    if (choose_overlay(figure))
+    if (cgt_figure_choose_overlay(figure))
         return -1;
     const cgt_picture_options settings = cgt_figure_get_settings(figure);
     const cgt_result result = cgt_picture_create(figure->context, &settings, &figure->drawing);

@@ -273,6 +273,7 @@ static int change_all(cgt_figure *figure, figure_options *next, const figure_fou
         return -1;
     if (!was->keeps_colors || !was->keeps_camera || (figure->sequence.wants_kinds && !was->has_kinds))
         survey_kept(figure);
+    figure->survey.times = was->times;
     if (was->has_kinds) {
         memcpy(figure->survey.has_types, was->has_types, sizeof was->has_types);
         memcpy(figure->survey.has_elements, was->has_elements, sizeof was->has_elements);
@@ -297,7 +298,8 @@ static void find_kept(const cgt_figure *figure, const char *name, figure_found *
                           .min = figure->coloring.min,
                           .max = figure->coloring.max,
                           .path = figure->path,
-                          .floor = figure->options.floor};
+                          .floor = figure->options.floor,
+                          .times = figure->survey.times};
     was->keeps_floor &= was->floor.is_set;
     memcpy(was->bounds_min, figure->survey.bounds_min, sizeof was->bounds_min);
     memcpy(was->bounds_max, figure->survey.bounds_max, sizeof was->bounds_max);

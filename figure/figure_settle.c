@@ -112,6 +112,8 @@ const camera_directions *cgt_figure_begin_fit(cgt_figure *figure)
         cgt_figure_options_axes(&o, kind ? CGT_TRAJECTORY_TRIANGLES : CGT_TRAJECTORY_SPHERES);
         cgt_camera_directions_set(&figure->fit[kind], o.view, o.up, o.fov, (double)o.width / (double)o.height,
                                   (double)o.orbit, o.picture.ortho);
+        if (cgt_picture_options_have_overlay(&o.picture) && !o.picture.ortho)
+            cgt_camera_directions_add_plain(&figure->fit[kind]);
     }
     return figure->fit;
 }
@@ -281,6 +283,28 @@ static void follow_bulk(cgt_figure *figure)
                     s->kind == CGT_TRAJECTORY_TRIANGLES ? "triangles" : "spheres", bounds[1]);
 }
 
+/* The automatic camera shows the scene where texts leave room for it. Returns 0, 1 where floats cannot hold it, or -1.
+ */
+static int fit_camera(cgt_figure *figure)
+{
+    const survey *const s = &figure->survey;
+    const camera_directions *const fit = figure_fit(figure);
+    layout *const l = &figure->overlay.layout;
+    camera_room rooms[sizeof l->room / sizeof l->room[0]];
+    if (!cgt_picture_options_have_overlay(&figure->options.picture))
+        return cgt_camera_path_fit(&figure->path, fit, &s->reach, s->bounds_min, s->bounds_max) ? 1 : 0;
+    if (cgt_figure_choose_overlay(figure))
+        return -1;
+    for (uint32_t i = 0; i < l->rooms; i++) {
+        const layout_rect *const r = &l->room[i];
+        rooms[i] = cgt_camera_room_between(r->x0, r->y0, r->x1, r->y1, figure->options.width, figure->options.height);
+    }
+    return cgt_camera_path_fit_room(&figure->path, fit, &s->reach, s->bounds_min, s->bounds_max, rooms, l->rooms,
+                                    &l->chosen)
+               ? 1
+               : 0;
+}
+
 int cgt_figure_choose_camera(cgt_figure *figure)
 {
     const figure_options *o = &figure->options;
@@ -303,7 +327,10 @@ int cgt_figure_choose_camera(cgt_figure *figure)
         }
         cgt_camera_reach_add_box(&s->reach, fit, s->bounds_min, s->bounds_max);
     }
-    if (cgt_camera_path_fit(&figure->path, fit, &s->reach, s->bounds_min, s->bounds_max) == 0) {
+    const int result = fit_camera(figure);
+    if (result < 0)
+        return -1;
+    if (result == 0) {
         if (o->zoom > 0.0f)
             cgt_camera_path_zoom(&figure->path, o->zoom);
         return 0;

@@ -88,6 +88,7 @@ struct cgt_figure {
     cgt_image image;                          /* of the frame: the caller's memory */
     overlay overlay;
     overlay_kind kinds[OVERLAY_MOST_KINDS]; /* of its legend */
+    int has_scale_told, has_labels_told;    /* what is wrong with them */
 
     /* Of <cgt/figure.h> alone. */
     int is_open, is_settled, is_surveying, has_bonds_told;
@@ -108,6 +109,7 @@ typedef struct figure_found {
     camera_path path;
     floor_options floor;
     float bounds_min[3], bounds_max[3];
+    survey_times times;
     uint8_t has_types[SURVEY_KINDS], has_elements[SURVEY_KINDS];
 } figure_found;
 
@@ -204,6 +206,9 @@ void cgt_figure_name_camera(const cgt_figure *figure, const cgt_camera *camera, 
 void cgt_figure_close(cgt_figure *figure);
 
 /* ---- From a committed scene to a picture (figure_draw.c) ---- */
+
+/* Chooses texts and their places, for the options' size, unless they are chosen: colours and survey are set. */
+int cgt_figure_choose_overlay(cgt_figure *figure);
 
 /* Chooses how pictures are made: drawing and overlay; camera, light and survey are set. */
 int cgt_figure_open_picture(cgt_figure *figure);

@@ -12,13 +12,16 @@
 
 #include <cgt/picture.h>
 
-enum { CAMERA_STOPS = 36, CAMERA_DIRECTIONS = 5 * (CAMERA_STOPS + 1) }; /* positions on an orbit but the first */
+enum { CAMERA_STOPS = 36, CAMERA_DIRECTIONS = 8 * (CAMERA_STOPS + 1) }; /* positions on an orbit but the first */
 
 /* The directions across the edges of a picture, outwards: how far the scene reaches along them tells from where all of
- * it is seen. Four for each position on an orbit; a parallel projection has a fifth, towards the eye. */
+ * it is seen. Four for each position on an orbit; a parallel projection has a fifth, towards the eye. Then those of
+ * cgt_camera_directions_add_plain. */
 typedef struct camera_directions {
-    uint32_t count; /* of directions */
-    uint32_t sides; /* directions a position */
+    uint32_t count;    /* of directions */
+    uint32_t sides;    /* directions a position */
+    uint32_t plain;    /* the first of those to the right, left, up and down; 0: there are none */
+    double tangent[2]; /* of half the angle across and up, less the margin */
     double x[CAMERA_DIRECTIONS], y[CAMERA_DIRECTIONS], z[CAMERA_DIRECTIONS];
     double gain[5]; /* how far the edge moves along each as the eye moves away by 1 */
     double view[3]; /* unit vectors: to the eye at the start, and up */
@@ -99,8 +102,10 @@ static inline void cgt_camera_directions_set(camera_directions *fit, const float
     const double pi = 3.14159265358979323846;
     const double margin = 1.04; /* room around the scene */
     const double tan_y = tan((double)fov * pi / 360.0) / margin, tangent[2] = {tan_y * aspect, tan_y};
-    fit->count = 0;
+    fit->count = fit->plain = 0;
     fit->sides = is_parallel ? 5 : 4;
+    fit->tangent[0] = tangent[0];
+    fit->tangent[1] = tangent[1];
     fit->fov = fov;
     fit->orbit_degrees = orbit_degrees;
     for (int c = 0; c < 3; c++) {
@@ -114,6 +119,23 @@ static inline void cgt_camera_directions_set(camera_directions *fit, const float
         if (stop)
             camera_rotate(turned, fit->up, orbit_degrees * pi / 180.0 * stop / CAMERA_STOPS);
         camera_add_directions(fit, turned, tangent, is_parallel);
+    }
+}
+
+/* Adds to the directions of a perspective camera those in the plane of the picture, for each position: from both kinds
+ * follows how far a scene reaches across edges that lie between its middle and those of the whole picture. */
+static inline void cgt_camera_directions_add_plain(camera_directions *fit)
+{
+    const uint32_t count = fit->count;
+    fit->plain = count;
+    for (uint32_t k = 0; k < count; k++) { /* towards the eye a side and the opposite one are the same */
+        const uint32_t other = k ^ 1u;
+        double v[3] = {fit->x[k] - fit->x[other], fit->y[k] - fit->y[other], fit->z[k] - fit->z[other]};
+        camera_normalize(v);
+        fit->x[fit->count] = v[0];
+        fit->y[fit->count] = v[1];
+        fit->z[fit->count] = v[2];
+        fit->count++;
     }
 }
 
@@ -188,7 +210,8 @@ static inline cgt_result cgt_camera_reach_show(const camera_reach *reach, const 
     double target[3], spacing, distance = 0.0;
     if (camera_choose_target(fit, reach, min, max, target, &spacing))
         return CGT_ERROR_INVALID_ARGUMENT;
-    for (uint32_t k = 0; k < fit->count; k++) { /* at least so far that eye and target differ in float */
+    const uint32_t count = fit->plain ? fit->plain : fit->count;
+    for (uint32_t k = 0; k < count; k++) { /* at least so far that eye and target differ in float */
         const double beyond = fmax(reach->along[k] - camera_along(fit, k, target), 4.0 * spacing);
         distance = fmax(distance, beyond / fit->gain[k % fit->sides]);
     }

@@ -12,6 +12,7 @@
 
 typedef struct camera_path {
     cgt_camera start;     /* at the start of the run */
+    double middle[3];     /* from the target to what is seen in the middle of the room for the scene */
     double orbit_degrees; /* angle over the whole run, about the axis through the target along `up`; positive is
                              counter-clockwise seen from the tip of up; 0: the camera is fixed */
 } camera_path;
@@ -25,7 +26,27 @@ void cgt_camera_path_fixed(camera_path *path, const cgt_camera *camera, double o
 int cgt_camera_path_fit(camera_path *path, const camera_directions *fit, const camera_reach *reach, const float min[3],
                         const float max[3]);
 
-/* Narrows the angle so that all is drawn `factor` times as large, above 0. */
+/* A part of the picture that has the scene to itself: how far it reaches from the middle to the right, left, up and
+ * down, in halves of the picture, above 0 to 1. */
+typedef struct camera_room {
+    double share[4];
+} camera_room;
+
+/* The room between two corners, in pixels from the upper left one. */
+static inline camera_room cgt_camera_room_between(float x0, float y0, float x1, float y1, uint32_t width,
+                                                  uint32_t height)
+{
+    const double w = 0.5 * (double)width, h = 0.5 * (double)height;
+    return (camera_room){{(double)x1 / w - 1.0, 1.0 - (double)x0 / w, 1.0 - (double)y0 / h, (double)y1 / h - 1.0}};
+}
+
+/* The same for a scene in one of several rooms, in which it is largest: *chosen. `fit` has plain directions where the
+ * camera is a perspective one. An orbit goes around the middle of the picture. */
+int cgt_camera_path_fit_room(camera_path *path, const camera_directions *fit, const camera_reach *reach,
+                             const float min[3], const float max[3], const camera_room *rooms, uint32_t count,
+                             uint32_t *chosen);
+
+/* Narrows the angle so that all is drawn `factor` times as large, above 0, about the middle of the room. */
 void cgt_camera_path_zoom(camera_path *path, float factor);
 
 /* The camera at share 0 to 1 of the run. Share 0 is exactly the start. */

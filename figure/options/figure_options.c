@@ -34,7 +34,7 @@ static void take_style(picture_options *o)
 
 int cgt_picture_options_have_overlay(const picture_options *o)
 {
-    return o->title || o->time || o->bar || o->legend || o->axes;
+    return o->title || o->time || o->bar || o->legend || o->axes || o->scale.is_set || *o->label;
 }
 
 int cgt_picture_options_need_drawing(const picture_options *o)
@@ -121,6 +121,8 @@ int cgt_figure_options_finish(figure_options *o, char *error, size_t size)
         return cgt_refuse(error, size, "--unwrap and --whole exclude each other");
     if (o->has_view && o->has_up && !o->side && cgt_camera_path_is_along(o->view, o->up))
         return cgt_refuse(error, size, "--view: the direction must not be along the axis that points up");
+    if (o->picture.label_text && !*o->picture.label)
+        return cgt_refuse(error, size, "--label-text is for --label");
     if (o->bounce.count && !o->bounce.is_set)
         return cgt_refuse(error, size, "--material is for --bounces");
     return 0;

@@ -13,6 +13,7 @@
 
 #include "color/coloring.h"
 #include "data/particles.h"
+#include "text/scale_bar.h"
 #include "style.h"
 #include "camera/camera_keys.h"
 
@@ -47,8 +48,11 @@ typedef struct picture_options {
     const char *bar;          /* title of the colour bar; NULL: no bar */
     const char *legend;       /* title of the legend of types or elements; NULL: none */
     int axes;
-    const char *font; /* file; NULL: found */
-    float text_size;  /* share of the picture's height */
+    scale_bar scale;
+    char label[2048];       /* a formula: spheres that have labels; "": none */
+    const char *label_text; /* of these; NULL: ids, or indices */
+    const char *font;       /* file; NULL: found */
+    float text_size;        /* share of the picture's height */
 } picture_options;
 
 /* ---- What is drawn ------------------------------------------------------------------------------------------- */

@@ -28,7 +28,8 @@ const char *cgt_split(const char *text, char mark, char *first, size_t room);
 
 option_parser cgt_parse_size, cgt_parse_keys, cgt_parse_view, cgt_parse_coloring, cgt_parse_range; /* figure_options */
 option_parser cgt_parse_samples, cgt_parse_camera, cgt_parse_colormap; /* uint32_t, camera_key, colormap * */
-option_parser cgt_parse_sun, cgt_parse_lamp;                           /* picture_options */
+option_parser cgt_parse_sun, cgt_parse_lamp, cgt_parse_label;          /* picture_options */
+option_parser cgt_parse_scale_bar, cgt_parse_label_text;               /* scale_bar, const char * */
 
 /* ---- particle_values.c --------------------------------------------------------------------------------------- */
 

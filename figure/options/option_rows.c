@@ -120,6 +120,20 @@ const option_row cgt_figure_rows[] = {
      "Swatches with the names of the types or elements that are drawn in any frame, with this title",
      TEXT(picture.legend), OTHERWISE("")},
     {"axes", 0, NULL, "The directions of x, y and z in a corner", FLAG(picture.axes)},
+    {"scale-bar", 0, "LENGTH,UNIT",
+     "A bar of a round length, or of this one, with a unit such as nm; either may be left out. Without --ortho it is "
+     "true "
+     "at the depth of the camera's target alone. Where the file has elements lengths are known, and the unit is nm or "
+     "Angstrom unless given; else LENGTH is in the file's unit",
+     PARSED(picture.scale, cgt_parse_scale_bar), OTHERWISE("")},
+    {"label", 0, "FORMULA",
+     "Label the spheres for which the formula is not 0, such as 'id == 5' or 'name == CA and resid < 9', at most 300; "
+     "those of several formulas. Labels are drawn though something covers the sphere",
+     PARSED(picture, cgt_parse_label), .repeats = 1},
+    {"label-text", 0, "TEXT",
+     "What labels say; columns and formulas in braces are replaced, such as '{name}{resid}'; default: ids, or "
+     "indices from 0 where there are none",
+     PARSED(picture.label_text, cgt_parse_label_text)},
     {"font", 0, "FILE", "Font of texts; default DejaVu Sans", TEXT(picture.font)},
     {"text-size", 0, "SHARE", "Size of texts as a share of the picture's height; default 0.03",
      FLOAT(picture.text_size, 0.005f, 0.2f)},

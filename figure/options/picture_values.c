@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "data/label_rules.h"
 #include "options/numbers.h"
 #include <cgt/picture.h>
 
@@ -180,4 +181,57 @@ int cgt_parse_sun(const char *text, void *to, char *error, size_t size)
 int cgt_parse_lamp(const char *text, void *to, char *error, size_t size)
 {
     return add_lamp(text, CGT_LIGHT_POINT, to, error, size);
+}
+
+/* ---- Texts --------------------------------------------------------------------------------------------------- */
+
+/* A length, a unit, or both with a comma between them. */
+int cgt_parse_scale_bar(const char *text, void *to, char *error, size_t size)
+{
+    char number[64];
+    scale_bar bar = {.is_set = 1};
+    const char *unit = cgt_split(text, ',', number, sizeof number);
+    if (!unit && (*text == '.' || *text == '-' || *text == '+' || (*text >= '0' && *text <= '9'))) {
+        snprintf(number, sizeof number, "%s", text);
+        unit = "";
+    } else if (!unit) {
+        number[0] = '\0';
+        unit = text;
+    } else if (!*unit) {
+        return cgt_refuse(error, size, "\"%s\": there is no unit after the comma", text);
+    }
+    if (strlen(unit) >= sizeof bar.unit)
+        return cgt_refuse(error, size, "\"%s\": a unit has at most %zu bytes", unit, sizeof bar.unit - 1);
+    if (*number && cgt_read_doubles(number, 1, &bar.length, error, size))
+        return -1;
+    if (*number && !(bar.length > 0.0))
+        return cgt_refuse(error, size, "the length must be above 0");
+    strcpy(bar.unit, unit);
+    *(scale_bar *)to = bar;
+    return 0;
+}
+
+/* Adds spheres to those that have labels. */
+int cgt_parse_label(const char *text, void *to, char *error, size_t size)
+{
+    picture_options *const o = to;
+    const size_t used = strlen(o->label);
+    expression *const formula = cgt_expression_parse(text, error, size);
+    if (!formula)
+        return -1;
+    cgt_expression_free(formula);
+    const int length = snprintf(o->label + used, sizeof o->label - used, "%s(%s)", used ? " || " : "", text);
+    if (length >= 0 && (size_t)length < sizeof o->label - used)
+        return 0;
+    o->label[used] = '\0';
+    return cgt_refuse(error, size, "the conditions are too long together");
+}
+
+int cgt_parse_label_text(const char *text, void *to, char *error, size_t size)
+{
+    label_rules rules = {.which = NULL};
+    const int result = cgt_label_rules_split(&rules, text, error, size);
+    cgt_label_rules_free(&rules);
+    *(const char **)to = text;
+    return result;
 }

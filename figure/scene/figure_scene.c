@@ -66,13 +66,29 @@ static int parse_arrows(cgt_figure *figure, const char *text)
     return 0;
 }
 
+static int open_labels(cgt_figure *figure)
+{
+    const picture_options *const o = &figure->options.picture;
+    label_rules *const rules = &figure->parts.labels;
+    if (!*o->label)
+        return 0;
+    rules->is_id = !o->label_text;
+    if (open_formula(figure, o->label, &rules->which) ||
+        (o->label_text && cgt_label_rules_split(rules, o->label_text, figure->message, sizeof figure->message)))
+        return -1;
+    for (uint32_t i = 0; i < rules->parts; i++)
+        if (cgt_frame_sequence_bind(&figure->sequence, rules->part[i].value, figure->message, sizeof figure->message))
+            return -1;
+    return 0;
+}
+
 int cgt_figure_scene_open(cgt_figure *figure)
 {
     const particle_options *o = &figure->options.particles;
     figure_scene *s = &figure->parts;
     particle_rules *rules = &s->rules;
     if (open_formula(figure, o->show, &s->show) || open_formula(figure, o->radius, &s->radius) ||
-        (o->arrows && parse_arrows(figure, o->arrows)))
+        (o->arrows && parse_arrows(figure, o->arrows)) || open_labels(figure))
         return -1;
     rules->show = s->show;
     rules->radius = s->radius;
@@ -325,6 +341,15 @@ int cgt_figure_scene_prepare(const cgt_figure *figure, const cgt_trajectory_fram
                  figure->source);
         return -1;
     }
+    parts->angstrom = f->element ? f->angstrom : 0.0f;
+    if (f->kind == CGT_TRAJECTORY_TRIANGLES && s->labels.which) {
+        snprintf(error, error_size, "%s: --label is for spheres, and this is a file of triangles", figure->source);
+        return -1;
+    }
+    if (s->labels.which && cgt_label_rules_apply(&s->labels, &s->rules, f, &parts->labels)) {
+        snprintf(error, error_size, "out of memory for labels");
+        return -1;
+    }
     if (s->selects && cgt_particles_select(&parts->particles, &s->rules, f, index, error, error_size))
         return -1;
     return find_rules(figure, f, parts, error, error_size) || make_figures(figure, f, parts, error, error_size) ? -1
@@ -336,6 +361,7 @@ void cgt_frame_parts_free(frame_parts *parts)
     cgt_particles_free(&parts->particles);
     cgt_sticks_free(&parts->sticks);
     free(parts->rules);
+    free(parts->labels.list);
 }
 
 /* The scene uses the reader's array: x, y, z, radius of each sphere; or the copy of those that are drawn. */
@@ -483,5 +509,6 @@ void cgt_figure_scene_close(cgt_figure *figure)
     cgt_expression_free(s->radius);
     for (int i = 0; i < 3; i++)
         cgt_expression_free(s->arrow[i]);
+    cgt_label_rules_free(&s->labels);
     free(s->mesh_entries);
 }

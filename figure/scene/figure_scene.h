@@ -9,6 +9,7 @@
 #include "color/coloring.h"
 #include "scene/shapes.h"
 #include "scene/floor.h"
+#include "data/label_rules.h"
 #include "data/particles.h"
 #include "scene/sticks.h"
 #include "options/figure_options.h"
@@ -36,10 +37,13 @@ typedef struct frame_parts {
     uint32_t bonds, arrows; /* capsules before trails, and triangles before the box, which get no outlines */
     int8_t *rules;          /* of each sphere that is drawn: its --material, or -1. NULL: there are none */
     size_t rule_room;
+    label_list labels;
+    float angstrom; /* in the frame's unit; 0: unknown */
 } frame_parts;
 
 typedef struct figure_scene {
     particle_rules rules;
+    label_rules labels;
     expression *show, *radius, *arrow[3]; /* NULL: not asked for */
     int selects;                          /* spheres are copied to particles: a rule or a figure needs them */
     float palette[FIGURE_ENTRIES][3];     /* linear: that of the colouring, then those of figures */

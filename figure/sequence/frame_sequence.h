@@ -18,7 +18,7 @@
 #include "sequence/speed.h"
 #include <cgt/trajectory.h>
 
-enum { SEQUENCE_FORMULAS = 8 };
+enum { SEQUENCE_FORMULAS = 12 };
 
 /* All zero at first: frames are taken as they are. */
 typedef struct frame_sequence {

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "options/numbers.h"
+
 static int finite_point(const float p[3]) { return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]); }
 
 /* Extends the bounds by a box of half edge `reach` around a point that is finite. */
@@ -113,6 +115,20 @@ static void survey_triangle(survey *s, const cgt_trajectory_frame *frame, const 
         reach = fmaxf(reach, 0.5f * high - 0.5f * low);
     }
     cgt_bulk_add(&s->bulk, frame->number, i, i, centre, reach);
+}
+
+static void survey_time(survey_times *t, const cgt_trajectory_frame *frame, int is_first)
+{
+    t->number_max = frame->number > t->number_max ? frame->number : t->number_max;
+    t->step_min = is_first || frame->step < t->step_min ? frame->step : t->step_min;
+    t->step_max = is_first || frame->step > t->step_max ? frame->step : t->step_max;
+    t->has_unknown |= isnan(frame->time);
+    if (isnan(frame->time))
+        return;
+    const size_t letters = strlen(cgt_number(6, frame->time).text);
+    t->letters = letters > t->letters ? letters : t->letters;
+    t->time_min = fmin(t->time_min, frame->time);
+    t->time_max = fmax(t->time_max, frame->time);
 }
 
 /* Types are those of all spheres, so that a filter does not choose other colours; numbers those that are shown. */
@@ -220,6 +236,8 @@ static void begin_survey(survey *s)
     s->id_min = s->type_min = UINT32_MAX;
     s->value_min = s->value_least = INFINITY;
     s->value_max = -INFINITY;
+    s->times.time_min = INFINITY;
+    s->times.time_max = -INFINITY;
     for (int c = 0; c < 3; c++) {
         s->box_min[c] = INFINITY;
         s->box_max[c] = -INFINITY;
@@ -330,6 +348,7 @@ void cgt_survey_look(survey_team *team)
 {
     const cgt_trajectory_frame *const frame = &team->sequence->frame;
     const uint32_t most = frame_primitives(frame) / PIECE_LEAST + 1;
+    survey_time(&team->first->times, frame, team->first->frames == 0);
     team->first->frames++;
     team->first->kind = frame->kind;
     team->first->has_type |= frame->type != NULL;

@@ -14,15 +14,25 @@
 enum { SURVEY_KINDS = 1024 }; /* types and elements that a legend may name; higher types are not told apart */
 enum { SURVEY_BINS = 4096 };  /* of speeds: the leading 13 bits of a float above 0, sixteen bins an octave */
 
+/* The extremes of the frames' numbers, which texts leave room for. */
+typedef struct survey_times {
+    uint64_t number_max;
+    int64_t step_min, step_max;
+    double time_min, time_max; /* of those that are known; min above max where none is */
+    int has_unknown;
+    size_t letters; /* of a time with six digits, at most */
+} survey_times;
+
 typedef struct survey {
     uint64_t frames; /* looked at */
     uint64_t total;  /* of the file, where has_total */
     int has_total;
     int is_cut;               /* the file goes on after them, with an error */
     cgt_trajectory_kind kind; /* of the file, where frames is above 0 */
-    uint64_t hidden;          /* spheres that options leave out; nothing below is theirs but types and has_element */
-    uint64_t drawable;        /* valid spheres or triangles that are shown: finite, no negative radius */
-    float bounds_min[3];      /* of those; min above max where there are none */
+    survey_times times;
+    uint64_t hidden;     /* spheres that options leave out; nothing below is theirs but types and has_element */
+    uint64_t drawable;   /* valid spheres or triangles that are shown: finite, no negative radius */
+    float bounds_min[3]; /* of those; min above max where there are none */
     float bounds_max[3];
     bulk bulk;               /* of their places */
     uint32_t id_min, id_max; /* indices where the file has no ids */

@@ -16,7 +16,7 @@
  *
  * (examples/draw_figure.c is a whole program.) Without a survey camera and range are those of the first frame that is
  * shown. The same options and frames give the same bytes as cgt-render's, for any number of threads and any variant;
- * texts depend on FreeType and the font.
+ * texts depend on FreeType and the installed fonts.
  *
  * Not installed yet: programs of this source tree link it, and it may change.
  *

@@ -63,7 +63,7 @@ static int trace_frame(renderer *r, frame_record *record, render_counts *stats)
     record->hits = cgt_picture_get_hits(r->figure->drawing);
     if (result == CGT_ERROR_STOPPED && stop)
         return 1;
-    return result ? render_result(r, cgt_figure_fail_picture(r->figure, result)) : 0;
+    return render_result(r, result ? cgt_figure_fail_picture(r->figure, result) : 0);
 }
 
 /* Draws a frame that was read and hands its picture over. Returns 0, -1 on an error, 1 where a signal stopped it. */
@@ -76,6 +76,7 @@ static int render_frame(renderer *r, read_frame *read)
     writer_done *const done = &picture->done;
     memset(&traced, 0, sizeof traced);
     r->figure->frame = &read->copy.frame;
+    r->figure->parts.frame = &read->parts; /* a Cell takes no scene, but labels */
     r->figure->coloring.index = read->index;
     r->figure->coloring.per_vertex = read->per_vertex;
     r->figure->speed_from = read->speed_from;

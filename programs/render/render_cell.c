@@ -204,6 +204,7 @@ int render_cell_frame(renderer *r, frame_record *record)
         return -1;
     }
     cgt_figure_draw_overlay(r->figure);
+    render_result(r, 0);
     add_result(&cell->sums, &cell->result, cell->options.spes);
     return 0;
 }

@@ -97,6 +97,7 @@ both caffeine.xyz bonds radius-scale=0.3 outline
 if ! $emulator "$program" -q -n -s 8x8 --title A "$tmp/cube.obj" 2>&1 | grep -q 'FreeType\|DejaVu'; then
     both grains.lammpstrj title=Grains 'time=step {step}' color=c_pe colorbar=energy axes
     both grains.lammpstrj color=type legend=kinds type-name=2=water
+    both grains.lammpstrj scale-bar=2,m 'label=id < 9' 'label-text=#{id}' 'show=id > 2'
 fi
 
 refused 'there is no option "colour"' colour=red

@@ -85,7 +85,7 @@ TEST(options_have_names_and_kinds)
             assert_string_not_equal(other.name, option.name);
         }
     }
-    assert_true(count > 60 && lists > 5 && repeating == 10);
+    assert_true(count > 60 && lists > 5 && repeating == 11);
     assert_false(cgt_figure_get_option(UINT32_MAX, &option));
 }
 

@@ -59,6 +59,34 @@ static void subject_make(const lane_case *c, subject *s)
     }
 }
 
+/* The lanes that the short test of the line leaves, in the normalised space of streams, with the least A that is right;
+ * of rays from too far for streams all. */
+static vmask find_strip_lanes(const subject *s, const lane_rays *r, const vfloat capsule[7])
+{
+    _Alignas(64) float unit[CGT_LANES], out[3][CGT_LANES];
+    const vfloat scale = spux_vfloat(s->committed_scene.scale), radius = spu_mul(capsule[6], scale);
+    vfloat p[3], q[3], c[3], n[3], dir[3], error, square;
+    vmask far = spux_mask_none();
+    for (int a = 0; a < 3; a++)
+        spux_store(out[a], spux_abs(r->dir[a]));
+    for (int k = 0; k < CGT_LANES; k++) {
+        int exponent = 0;
+        frexpf(fmaxf(out[0][k], fmaxf(out[1][k], out[2][k])), &exponent);
+        unit[k] = exponent > -120 && exponent < 120 ? ldexpf(1, 1 - exponent) : 0; /* the largest from 1 to 2 */
+    }
+    for (int a = 0; a < 3; a++) {
+        const vfloat org = spu_mul(r->org[a], scale);
+        p[a] = spu_mul(capsule[a], scale);
+        q[a] = spu_mul(capsule[3 + a], scale);
+        c[a] = spu_sub(p[a], org);
+        dir[a] = spu_mul(r->dir[a], spux_load(unit));
+        far = spu_or(far, spu_cmpgt(spux_abs(org), spux_vfloat(16)));
+    }
+    lane_strip_init(p, q, radius, n, &error, &square);
+    const vfloat size = spu_add(spu_mul(lane_sum(c), spux_vfloat(1 + 0x1p-20f)), radius);
+    return spu_or(far, lane_meets_strip(dir, c, n, size, error, square));
+}
+
 /* Primitives k, k + step, and so on. */
 static bool test_prims(const subject *s, const lane_rays *r, int k, int step, lane_hits *q)
 {
@@ -85,8 +113,13 @@ static bool test_prims(const subject *s, const lane_rays *r, int k, int step, la
         field[i] = spux_load(row[i]);
     if (kind == ORACLE_SPHERE)
         return lane_test_sphere(r, field, field[3], q);
-    if (kind == ORACLE_CAPSULE)
-        return lane_test_capsule(r, field, field + 3, field[6], q);
+    if (kind == ORACLE_CAPSULE) {
+        const vmask left = find_strip_lanes(s, r, field);
+        const bool any = lane_test_capsule(r, field, field + 3, field[6], q);
+        q->certain_hit = spu_and(q->certain_hit, left);
+        q->undecided = spu_and(q->undecided, left);
+        return any;
+    }
     const lane_triangles triangles = {.vertex = {field[0], field[1], field[2]},
                                       .edge = {{field[3], field[4], field[5]}, {field[6], field[7], field[8]}},
                                       .sum = {field[9], field[10]}};

@@ -68,7 +68,7 @@ check simd "simd" "cgt/[a-z_]+\\.h|($standard|$intrinsics)\\.h|spu_(intrinsics|m
 check src "src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check backends "backends src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check picture "picture" "cgt/[a-z_]+\\.h|($standard|pthread)\\.h"
-check figure "figure picture" "cgt/[a-z_]+\\.h|($standard|pthread)\\.h|freetype/freetype\\.h"
+check figure "figure picture" "cgt/[a-z_]+\\.h|($standard|pthread)\\.h|(fontconfig/fontconfig|freetype/freetype)\\.h"
 check mpi "mpi" "cgt/(mpi|picture)\\.h|($standard|sched|mpi)\\.h"
 check examples "examples programs" "cgt/[a-z_]+\\.h|($standard|getopt|lammps/library|mpi)\\.h"
 check programs "programs backends picture figure" \

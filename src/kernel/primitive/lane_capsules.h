@@ -43,6 +43,7 @@
 #define CGT_LANE_CAPSULES_H
 
 #include "kernel/primitive/lane_tests.h"
+#include "kernel/primitive/lane_vectors.h"
 
 /* 0 for NaN, too. */
 CGT_SPU_INLINE vfloat lane_clamp_share(vfloat s)
@@ -170,6 +171,37 @@ CGT_SPU_INLINE bool lane_test_capsule(const lane_rays *r, const vfloat p[3], con
                                       lane_hits *hits)
 {
     return lane_test_capsule_from(r, p, q, radius, false, hits);
+}
+
+/* ---- The line alone, in fewer operations ----
+ * With m = d x n and c = p - org a line misses the capsule if |m.c| > r |m|. In normalised space, with |d_a| <= 2 and A
+ * at least |c| and the error of the origin: n is off by u |n_a|, and m by three times that in its factors, so by 6 u |n|
+ * in each component, none of which is above 2 |n|. Then m.c is within
+ *   2 |n| A (3 u + u + 3 u)
+ * by m, by c and by the sum, and |m| within 3 u sqrt(3) 2 |n| < 11 u |n|. So it misses for which
+ *   |m.c| > r |m| + 20 u |n| (A + r) + 2^-116,
+ * which has more than 4 u of either for its own roundings, and the last term for products that underflow, times A. Both
+ * sides are squared, where what underflows is below 2^-118. */
+
+/* What that takes of a capsule: n, 20 u |n| and r^2, rounded up. */
+CGT_SPU_INLINE void lane_strip_init(const vfloat p[3], const vfloat q[3], vfloat radius, vfloat n[3], vfloat *error,
+                                    vfloat *square)
+{
+    for (int a = 0; a < 3; a++)
+        n[a] = spu_sub(q[a], p[a]);
+    *error = spu_mul(lane_sum(n), spux_vfloat(20 * FILTER_ROUNDOFF));
+    *square = spu_mul(spu_mul(radius, radius), spux_vfloat(1 + 0x1p-20f));
+}
+
+/* Returns the lanes whose lines may meet their capsules; size: A + r. */
+CGT_SPU_INLINE vmask lane_meets_strip(const vfloat dir[3], const vfloat c[3], const vfloat n[3], vfloat size,
+                                      vfloat error, vfloat square)
+{
+    vfloat m[3];
+    lane_cross(dir, n, m);
+    const vfloat beyond = spu_sub(spux_abs(lane_dot(m, c)), spu_madd(size, error, spux_vfloat(0x1p-116f)));
+    const vfloat within = spu_madd(lane_dot(m, m), square, spux_vfloat(0x1p-118f));
+    return spux_not(spu_and(spu_cmpgt(beyond, spux_vfloat(0)), spu_cmpgt(spu_mul(beyond, beyond), within)));
 }
 
 #endif

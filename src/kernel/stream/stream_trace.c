@@ -13,6 +13,7 @@
  * its list in pieces, each through the node's whole subtree before the next. There is always room for a piece of one
  * vector: a level takes at most STREAM_MIN_WORDS words for that, there are at most CGT_BVH_MAX_DEPTH levels, the arena
  * is at least that many times as large, and a node leaves as much for each level below it. */
+#include "kernel/stream/stream_capsules.h"
 #include "kernel/stream/stream_node.h"
 #include "kernel/stream/stream_read.h"
 #include "kernel/stream/stream_spheres.h"
@@ -22,12 +23,9 @@
 #define STREAM_FEW_AT_NODE (CGT_LANES == 16 ? 8u : CGT_LANES == 8 ? 5u : 1u)
 #define STREAM_FEW_AT_LEAF (CGT_LANES == 16 ? 4u : CGT_LANES == 8 ? 3u : 1u)
 
-/* Leaves of capsules are tested ray by ray, however many there are. */
-CGT_SPU_INLINE uint32_t stream_few(const stream *s, uint32_t code)
+CGT_SPU_INLINE uint32_t stream_few(uint32_t code)
 {
-    if (!(code & CGT_BVH_LEAF))
-        return STREAM_FEW_AT_NODE;
-    return cgt_bvh_find_leaf(s->call.tree, code).kind == CGT_KIND_CAPSULES ? UINT32_MAX : STREAM_FEW_AT_LEAF;
+    return code & CGT_BVH_LEAF ? STREAM_FEW_AT_LEAF : STREAM_FEW_AT_NODE;
 }
 
 /* ---- all rays of an octant ---- */
@@ -35,23 +33,35 @@ CGT_SPU_INLINE uint32_t stream_few(const stream *s, uint32_t code)
 CGT_SPU_INLINE void stream_leaf(stream *s, const bvh_node *n, uint32_t child, const uint32_t *list, uint32_t rays,
                                 bool any_hit, bool skips_prims)
 {
-    const uint32_t code = n->child[child], index = code & CGT_BVH_INDEX_MASK;
+    const uint32_t code = n->child[child];
+    const cgt_bvh_leaf leaf = cgt_bvh_find_leaf(s->call.tree, code);
     const leaf_box box = leaf_box_init(n, child, s->call.scale);
-    const bool flat = code & CGT_BVH_BOXED_LEAF; /* the blocks of the other kind may be NULL */
-    const triangle_block *triangles = flat ? (const triangle_block *)s->call.tree->triangle + index : NULL;
-    const sphere_block *spheres = flat ? NULL : (const sphere_block *)s->call.tree->sphere + index;
+    const cgt_bvh *const tree = s->call.tree;
+    const sphere_block *spheres = NULL; /* the blocks of other kinds may be NULL */
+    const triangle_block *triangles = NULL;
+    const capsule_block *capsules = NULL;
+    if (leaf.kind == CGT_KIND_TRIANGLES)
+        triangles = (const triangle_block *)tree->triangle + leaf.block;
+    else if (leaf.kind == CGT_KIND_SPHERES)
+        spheres = (const sphere_block *)tree->sphere + leaf.block;
+    else
+        capsules = (const capsule_block *)tree->capsule + leaf.block;
+    const unsigned in_reach = triangles ? leaf_reachable_triangles(s, triangles)
+                              : spheres ? leaf_reachable_spheres(s, spheres)
+                                        : leaf_reachable_capsules(s, capsules);
     leaf_candidates m;
-    leaf_candidates_init(flat ? leaf_reachable_triangles(s, triangles) : leaf_reachable_spheres(s, spheres),
-                         bvh_leaf_count(code), &m);
+    leaf_candidates_init(in_reach, bvh_leaf_count(code), &m);
     s->call.counts->leaves++;
     s->call.counts->packet_tests += m.count;
     s->call.counts->ray_tests += (uint64_t)m.count * ((rays + CGT_LANES - 1) / CGT_LANES * CGT_LANES);
     if (!m.count)
         return;
-    if (flat)
+    if (triangles)
         leaf_stream_triangles(s, triangles, &m, &box, list, rays, any_hit, skips_prims);
-    else
+    else if (spheres)
         leaf_stream_spheres(s, spheres, &m, &box, list, rays, any_hit, skips_prims);
+    else
+        leaf_stream_capsules(s, capsules, &m, &box, list, rays, any_hit, skips_prims);
 }
 
 CGT_SPU_INLINE void stream_trace(stream *s, const uint32_t *list, uint32_t count, bool any_hit, bool skips_prims)
@@ -85,7 +95,7 @@ CGT_SPU_INLINE void stream_trace(stream *s, const uint32_t *list, uint32_t count
         else if (rays <= STREAM_FEW_AT_NODE)
             s->alone += rays;
         /* few rays singly, a leaf at once, a node one level down */
-        if (rays <= stream_few(s, code)) {
+        if (rays <= stream_few(code)) {
             CGT_KERNEL(cgt_stream_trace_few)(s, v->scratch, rays, code);
         } else if (code & CGT_BVH_LEAF) {
             stream_leaf(s, v->node, child, v->scratch, rays, any_hit, skips_prims);

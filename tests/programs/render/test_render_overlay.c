@@ -144,6 +144,12 @@ TEST(times_replace_their_names)
     assert_string_equal(little, "-1200");
 }
 
+static void place_and_draw(overlay *o, const canvas *c, const overlay_frame *f)
+{
+    cgt_overlay_place(o, WIDTH, HEIGHT);
+    cgt_overlay_draw(o, c, f);
+}
+
 static overlay make_overlay(coloring *k)
 {
     assert_int_equal(cgt_coloring_init(k, COLORING_VALUE, NULL, 0.0f, 1.0f), 0);
@@ -157,7 +163,7 @@ TEST(the_bar_shows_the_map)
     const overlay_frame f = {.number = 0};
     overlay o = make_overlay(&k);
     o.bar = "";
-    cgt_overlay_draw(&o, &c, &f);
+    place_and_draw(&o, &c, &f);
     /* From a quarter of the height to three, 5.5 sizes from the right: viridis' yellow above, its violet below. */
     const uint8_t *above = pixel(WIDTH - 50, HEIGHT / 4 + 1), *below = pixel(WIDTH - 50, 3 * HEIGHT / 4 - 2);
     assert_true(above[0] > 240 && above[1] > 220 && above[2] < 60);
@@ -178,7 +184,7 @@ TEST(the_legend_has_a_line_for_each_kind)
     o.legend = "";
     o.kinds = kinds;
     o.kind_count = 2;
-    cgt_overlay_draw(&o, &c, &f);
+    place_and_draw(&o, &c, &f);
     /* Without a font: swatches of 10 pixels, 14.5 apart around the middle, 9 pixels from the edge. */
     const int x = WIDTH - 9 - 13 + 5;
     assert_true(pixel(x, HEIGHT / 2 - 7)[2] == 255 && pixel(x, HEIGHT / 2 - 7)[0] == 0);
@@ -190,13 +196,13 @@ TEST(the_legend_has_a_line_for_each_kind)
     if (o.font) { /* names to the right of the swatches, which make room; a title above */
         c = make_canvas(0);
         o.legend = "kinds";
-        cgt_overlay_draw(&o, &c, &f);
+        place_and_draw(&o, &c, &f);
         const int left = (int)((float)WIDTH - 9.0f - 13.5f - cgt_text_width(o.font, "oxygen"));
         assert_true(drawn(left + 13, HEIGHT / 2 + 2, WIDTH - 8, HEIGHT / 2 + 24) > 40);
         assert_true(drawn(left, HEIGHT / 2 - 24, left + 40, HEIGHT / 2 - 10) > 40);
         assert_int_equal(drawn(0, 0, left - 1, HEIGHT), 0);
         o.kind_count = 30; /* more than there is room for */
-        cgt_overlay_draw(&o, &c, &f);
+        place_and_draw(&o, &c, &f);
         cgt_text_close(o.font);
     }
     cgt_coloring_free(&k);
@@ -209,8 +215,8 @@ TEST(axes_point_as_the_camera_sees_them)
     const overlay_frame f = {.right = {1, 0, 0}, .up = {0, 0, 1}, .forward = {0, 1, 0}}; /* from the front: y away */
     overlay o = make_overlay(&k);
     o.axes = 1;
-    cgt_overlay_draw(&o, &c, &f);
-    const int x = 33, y = HEIGHT - 33;                                  /* the origin: margin and length */
+    place_and_draw(&o, &c, &f);
+    const int x = 34, y = HEIGHT - 34;                                  /* the origin: 3.4 sizes */
     assert_true(pixel(x + 15, y)[0] > 150 && pixel(x + 15, y)[2] < 60); /* x is red, to the right */
     assert_true(pixel(x, y - 15)[2] > 150 && pixel(x, y - 15)[0] < 60); /* z is blue, up */
     assert_int_equal(drawn(x - 20, y - 2, x - 4, y + 2), 0);
@@ -234,7 +240,7 @@ TEST(texts_are_drawn_where_there_is_a_font)
     const overlay_frame f = {.time = 2.5};
     o.title = "A title";
     o.time = "t = {time}";
-    cgt_overlay_draw(&o, &c, &f);
+    place_and_draw(&o, &c, &f);
     const float width = cgt_text_width(o.font, o.title);
     assert_true(width > 20.0f && width < 60.0f);
     assert_true(drawn((int)(0.5f * (WIDTH - width)), 5, (int)(0.5f * (WIDTH + width)), 22) > 40);
@@ -245,20 +251,54 @@ TEST(texts_are_drawn_where_there_is_a_font)
     assert_true(fabsf(cgt_text_width(o.font, "\xc3\xa9") - cgt_text_width(o.font, "e")) < 2.0f);
     assert_true(cgt_text_width(o.font, "\xff\xc3") > 0.0f);
     cgt_text_draw(o.font, &c, 1e4f, -1e4f, "outside \xe2\x82", white);
-    /* what DejaVu Sans lacks, each once; nothing of Latin, Greek and units */
+    /* what no font has, each once; nothing of Latin, Greek and units */
     char missing[12] = "";
     assert_int_equal(cgt_text_find_missing(o.font, "\xc3\x85, \xc2\xb5, \xce\xb1 \xe2\x86\x92 100 \xc2\xb0", missing,
                                            sizeof missing),
                      0);
-    assert_int_equal(cgt_text_find_missing(o.font, "\xe6\xb8\xa9\xe5\xba\xa6 T \xe6\xb8\xa9", missing, sizeof missing),
-                     0x6e29);
-    assert_string_equal(missing, "\xe6\xb8\xa9\xe5\xba\xa6");
-    assert_int_equal(cgt_text_find_missing(o.font, "\xe5\xba\xa6", missing, sizeof missing), 0);
-    cgt_text_find_missing(o.font, "\xe4\xb8\x80\xe4\xba\x8c\xe4\xb8\x89", missing,
+    assert_int_equal(cgt_text_find_missing(o.font, "\xe2\xbf\xa0\xe2\xbf\xa1 T \xe2\xbf\xa0", missing, sizeof missing),
+                     0x2fe0);
+    assert_string_equal(missing, "\xe2\xbf\xa0\xe2\xbf\xa1");
+    assert_int_equal(cgt_text_find_missing(o.font, "\xe2\xbf\xa1", missing, sizeof missing), 0);
+    cgt_text_find_missing(o.font, "\xe2\xbf\xa2\xe2\xbf\xa3\xe2\xbf\xa4", missing,
                           sizeof missing); /* as far as there is room */
     assert_int_equal(strlen(missing), 9);
     cgt_text_close(o.font);
     cgt_coloring_free(&k);
+}
+
+/* DejaVu Sans Mono has no Hebrew, DejaVu Sans has: it is drawn in another font where fontconfig finds one, else told.
+ * What the font has itself is its own. */
+TEST(other_fonts_have_what_one_lacks)
+{
+    static const char alef[] = "\xd7\x90";
+    static uint8_t box[sizeof rgb];
+    char error[256], missing[12] = "";
+    text_font *const font =
+        cgt_text_open("/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf", 40.0f, error, sizeof error);
+    if (!font) {
+        print_message("%s\n", error);
+        skip();
+    }
+    canvas c = make_canvas(0);
+    cgt_text_draw(font, &c, 20.0f, 100.0f, "\xe2\xbf\xa0", white); /* which no font has */
+    memcpy(box, rgb, sizeof rgb);
+    assert_true(drawn(20, 50, 80, 120) > 50);
+    c = make_canvas(0);
+    cgt_text_draw(font, &c, 20.0f, 100.0f, alef, white);
+    assert_true(drawn(20, 50, 80, 120) > 50);
+#ifdef CGT_HAVE_FONTCONFIG
+    assert_int_equal(cgt_text_find_missing(font, alef, missing, sizeof missing), 0);
+    assert_memory_not_equal(rgb, box, sizeof rgb);
+#else
+    assert_int_equal(cgt_text_find_missing(font, alef, missing, sizeof missing), 0x5d0);
+    assert_memory_equal(rgb, box, sizeof rgb);
+#endif
+    const float width = cgt_text_width(font, alef);
+    cgt_text_set_size(font, 20.0f); /* of all fonts */
+    assert_true(fabsf(cgt_text_width(font, alef) - 0.5f * width) < 1.5f);
+    assert_true(fabsf(cgt_text_width(font, "i") - cgt_text_width(font, "M")) < 0.01f);
+    cgt_text_close(font);
 }
 
 SUITE(NULL, NULL)
