@@ -574,13 +574,31 @@ static void draw_shown(cgt_figure *figure, uint8_t rgb[BYTES])
  * option from the start; without it as before. What is not there is refused, and changes nothing. */
 TEST(options_change_what_is_shown)
 {
-    static const char *const options[][2] = {
-        {"color", "heat"},  {"bonds", "1.2"},      {"head", "0.5"},     {"style", "paper"},
-        {"antialias", "4"}, {"background", "red"}, {"floor", NULL},     {"bounces", "2"},
-        {"view", "top"},    {"zoom", "3"},         {"images", "1,1,1"}, {"light", "1,0,0"},
-        {"color", "id"},    {"color", "height"},   {"orbit", "20"},     {"range", "symmetric"}};
+    static const char *const options[][2] = {{"color", "heat"},
+                                             {"bonds", "1.2"},
+                                             {"head", "0.5"},
+                                             {"style", "paper"},
+                                             {"antialias", "4"},
+                                             {"background", "red"},
+                                             {"floor", NULL},
+                                             {"bounces", "2"},
+                                             {"view", "top"},
+                                             {"zoom", "3"},
+                                             {"images", "1,1,1"},
+                                             {"light", "1,0,0"},
+                                             {"color", "id"},
+                                             {"color", "height"},
+                                             {"orbit", "20"},
+                                             {"range", "symmetric"},
+                                             {"category", "heat"},
+                                             {"category", "floor(heat / 2)"},
+                                             {"opacity", "heat > 2=0.4"},
+                                             {"opacity", "bonds=0.5"}};
     static const char *const wrong[][3] = {{"color", "cold", "has no column \"cold\""},
                                            {"show", "cold > 2", "has no column \"cold\""},
+                                           {"opacity", "cold > 2=0.5", "has no column \"cold\""},
+                                           {"category", "heat / 2", "it takes whole numbers"},
+                                           {"type-element", "1=H", "type-element: the frames"},
                                            {"box", NULL, "has no box"},
                                            {"bonds", NULL, "has no bonds"},
                                            {"font", "no such file", NULL},
@@ -629,6 +647,41 @@ TEST(options_change_what_is_shown)
     const cgt_image image = {.bytes = then};
     assert_int_equal(cgt_figure_draw(figure, &image, NULL), CGT_ERROR_INVALID_ARGUMENT);
     cgt_figure_release(figure);
+}
+
+/* Layers and words go with the frame that is released, and come with the next one. */
+TEST(what_is_seen_through_goes_with_its_frame)
+{
+    static const char *const names[] = {"wall", "grain", "oil"};
+    cgt_figure *const figure = make_figure(), *const fresh = make_figure();
+    cgt_figure_data data = grains();
+    uint8_t first[BYTES], then[BYTES], expected[BYTES];
+    for (uint32_t i = 0; i < GRAINS; i++)
+        numbers[i] = i % 3 + 1;
+    const cgt_figure_column kinds = {
+        .name = "kind", .values = cgt_uint32s(numbers, 0), .words = names, .word_count = 3};
+    data.points.columns = &kinds;
+    assert_int_equal(cgt_figure_set(figure, "opacity", "kind == oil=0.4"), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "color", "kind"), CGT_OK);
+    cgt_figure_frame *const one = keep(figure, &data);
+    data.number = 1;
+    cgt_figure_frame *const other = keep(figure, &data);
+    assert_int_equal(cgt_figure_show_frame(figure, one), CGT_OK);
+    draw_shown(figure, first);
+    cgt_figure_frame_release(one);
+    assert_int_equal(cgt_figure_show_frame(figure, other), CGT_OK);
+    draw_shown(figure, then);
+    assert_memory_equal(then, first, sizeof then);
+    assert_int_equal(cgt_figure_set(figure, "style", "paper"), CGT_OK);
+    draw_shown(figure, then);
+    assert_int_equal(cgt_figure_set(fresh, "opacity", "kind == oil=0.4"), CGT_OK);
+    assert_int_equal(cgt_figure_set(fresh, "color", "kind"), CGT_OK);
+    assert_int_equal(cgt_figure_set(fresh, "style", "paper"), CGT_OK);
+    draw(fresh, &data, expected);
+    assert_memory_equal(then, expected, sizeof then);
+    cgt_figure_release(figure);
+    cgt_figure_release(fresh);
+    cgt_figure_frame_release(other);
 }
 
 /* What was surveyed stays with options that do not concern it: camera and range are those of the run. */
