@@ -216,7 +216,8 @@ static int is_of_picture(const cgt_figure *figure, const char *name, const figur
 {
     const option_row *const row = name ? cgt_figure_find_row(name) : NULL;
     const size_t first = offsetof(figure_options, picture), end = first + sizeof figure->options.picture;
-    if (!row || figure->options.bounce.is_set || (cgt_figure_wants_kinds(next) && !figure->sequence.wants_kinds))
+    if (!row || is_among(name, " label label-text ") || figure->options.bounce.is_set ||
+        (cgt_figure_wants_kinds(next) && !figure->sequence.wants_kinds))
         return 0;
     return (row->at >= first && row->at < end) || is_among(name, " size antialias light ");
 }

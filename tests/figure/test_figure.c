@@ -684,6 +684,39 @@ TEST(what_is_seen_through_goes_with_its_frame)
     cgt_figure_frame_release(other);
 }
 
+/* The same of what lies over the picture: texts, and labels of grains, with a camera that is given, since an automatic
+ * one leaves room for texts. */
+TEST(texts_change_over_what_is_shown)
+{
+    static const char *const options[][2] = {{"label", "heat > 5"}, {"label-text", "{heat}"}, {"title", "A"},
+                                             {"axes", NULL},        {"scale-bar", "1,m"},     {"colorbar", "heat"},
+                                             {"text-size", "0.1"},  {"legend", "kinds"}};
+    cgt_figure *const figure = make_figure(), *const fresh = make_figure();
+    const cgt_figure_data data = grains();
+    uint8_t then[BYTES], expected[BYTES];
+    char settings[500];
+    assert_int_equal(cgt_figure_set_lines(figure, "camera = 9,-9,9,2,2,0,0,0,1,40\ncolor = heat\nrange = 0,6\n"),
+                     CGT_OK);
+    cgt_figure_frame *const frame = keep(figure, &data);
+    assert_int_equal(cgt_figure_show_frame(figure, frame), CGT_OK);
+    for (size_t i = 0; i < TEST_COUNT(options); i++) {
+        if (cgt_figure_set(figure, options[i][0], options[i][1]) != CGT_OK) {
+            expect_message(figure, "FreeType");
+            break;
+        }
+        draw_shown(figure, then);
+        cgt_figure_get(figure, NULL, settings, sizeof settings);
+        assert_int_equal(cgt_figure_unset(fresh, NULL), CGT_OK);
+        assert_int_equal(cgt_figure_set_lines(fresh, settings), CGT_OK);
+        draw(fresh, &data, expected);
+        if (memcmp(then, expected, sizeof then) != 0)
+            fail_msg("%s: another picture than that of a figure which had it from the start", options[i][0]);
+    }
+    cgt_figure_release(figure);
+    cgt_figure_release(fresh);
+    cgt_figure_frame_release(frame);
+}
+
 /* What was surveyed stays with options that do not concern it: camera and range are those of the run. */
 TEST(a_survey_stays_while_frames_are_kept)
 {

@@ -168,7 +168,7 @@ TEST(usual_texts_find_room)
     cgt_text_close(font);
 }
 
-/* Names that fit in small letters are not told as cut; those that do not fit are cut, and lines beyond a few counted. */
+/* Names that fit in small letters are not told as cut; others are cut, and lines beyond a few counted. */
 TEST(legends_shrink_before_they_are_cut)
 {
     text_font *const font = open_font();

@@ -37,7 +37,7 @@ static void close_file(top_lines *l)
     free(file);
 }
 
-/* The path of a file in a folder, of `length` letters; NULL: it is not there, or no regular file. The caller frees it. */
+/* The path of a file in a folder, of `length` letters; NULL: it is no regular file. The caller frees it. */
 static char *find_in(const char *folder, size_t length, const char *name)
 {
     const size_t size = length + strlen(name) + 2;

@@ -5,8 +5,8 @@
  * as many operations as ten of others, and before it the short one of the line.
  *
  * Closest hits: lanes are rays, one capsule after the other that is left by any of them. Any hit: pairs of a ray and a
- * capsule that are left are listed, and lanes are pairs: of 16 rays mostly few come near to one capsule. A ray may be in
- * several lanes then; each of them that hits ends it.
+ * capsule that are left are listed, and lanes are pairs: of 16 rays mostly few come near to one capsule. A ray may then
+ * be in several lanes; the first of them that hits ends it.
  */
 #ifndef CGT_STREAM_CAPSULES_H
 #define CGT_STREAM_CAPSULES_H
@@ -50,7 +50,7 @@ CGT_SPU_INLINE void leaf_strips_init(const capsule_block *leaf, leaf_strips *x)
     spux_store(x->square, square);
 }
 
-/* The rays whose lines may meet capsule k. The leaf's box holds the ends of its capsules, so that A is that of the rays. */
+/* The rays whose lines may meet capsule k. The leaf's box holds the ends of its capsules: A is that of the rays. */
 CGT_SPU_INLINE vmask leaf_meets_strip(const leaf_rays *r, const capsule_block *leaf, const leaf_strips *x, uint32_t k)
 {
     vfloat c[3], n[3];

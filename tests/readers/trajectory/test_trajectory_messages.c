@@ -128,8 +128,10 @@ TEST(topologies_within_themselves)
     const cgt_trajectory_options options = {.topology = path};
     assert_non_null(text);
     memset(text, 'a', LINE * LINES);
-    for (size_t i = 1; i <= LINES; i++)
-        memcpy(text + i * LINE - 2, "\\\n", 2);
+    for (size_t i = 1; i <= LINES; i++) {
+        text[i * LINE - 2] = '\\';
+        text[i * LINE - 1] = '\n';
+    }
     scratch_fill(path, text, LINE * LINES);
     free(text);
     expect_sentence(scratch_text(".xyz", "1\n\n1 0 0 0\n"), &options, "a line that goes on is too long");
