@@ -66,5 +66,5 @@ void word_map_free(word_map *map)
         free(map->word[i]);
     free(map->word);
     free(map->slot);
-    *map = (word_map){NULL};
+    *map = (word_map){.count = 0};
 }

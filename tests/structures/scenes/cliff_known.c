@@ -244,7 +244,7 @@ static const known_row known[] = {
     {"coaxial, eye inside, sticks", CLIFF_CAMERA, CLIFF_AUTO, 19},
     {"coaxial, eye inside, sticks", CLIFF_SINGLE, CLIFF_AUTO, 25},
     {"coaxial, eye inside, sticks", CLIFF_RAYS, CLIFF_AUTO, 148},
-    {"coaxial, eye inside, sticks", CLIFF_CAMERA, CLIFF_BVH, 7631},
+    {"coaxial, eye inside, sticks", CLIFF_CAMERA, CLIFF_BVH, 13500},
     {"coaxial, eye inside, sticks", CLIFF_SINGLE, CLIFF_BVH, 60},
     {"coaxial, eye inside, sticks", CLIFF_RAYS, CLIFF_BVH, 220},
     {"parallel, eye at 1e4, sticks", CLIFF_CAMERA, CLIFF_AUTO, 26},
