@@ -141,6 +141,8 @@ static bool is_in_range(const cgt_ray *ray, double t)
 
 bool cgt_decide_hit(const cgt_ray *ray, cgt_decided_hit *hit, uint64_t *exact)
 {
+    if (hit->primitive.kind == CGT_KIND_CAPSULES) /* its terms serve both decisions */
+        return cgt_decide_capsule_hit(ray, hit, exact) && is_in_range(ray, hit->t);
     if (!cgt_decide_roots(ray, &hit->primitive, exact) || triangle_is_beyond(ray, &hit->primitive))
         return false;
     cgt_decide_t(ray, hit);

@@ -67,30 +67,23 @@ static line_parts parts_of_line(const cgt_capsule_double_terms *e, const cgt_ray
                          entered_part(-x[!from_q], s[!from_q], -x[from_q], s[from_q], known, last, first)}};
 }
 
-/* The part where the line enters or leaves, exactly. Of a capsule that is a sphere: an end. */
-static cgt_capsule_part part_at(const cgt_ray *ray, const cgt_capsule *capsule, const cgt_capsule_double_terms *e,
-                                bool far)
+/* The part where the line enters or leaves, exactly. */
+static cgt_capsule_part part_at(const cgt_ray *ray, const cgt_capsule *capsule, const line_parts *line, bool far)
 {
-    const int part = parts_of_line(e, ray, capsule).part[far];
     cgt_capsule_part exact[2] = {CGT_CAPSULE_P, CGT_CAPSULE_P};
-    if (part != UNKNOWN)
-        return (cgt_capsule_part)part;
+    if (line->part[far] != UNKNOWN)
+        return (cgt_capsule_part)line->part[far];
     (void)cgt_exact_capsule_roots(&ray->line, capsule, exact);
     return exact[far];
 }
 
-int cgt_decide_capsule_roots(const cgt_ray *ray, const cgt_capsule *capsule, uint64_t *exact)
+/* In how many places the line meets the capsule, which is no sphere. */
+static int roots_of_line(const cgt_ray *ray, const cgt_capsule *capsule, const cgt_capsule_double_terms *e,
+                         const line_parts *line, uint64_t *exact)
 {
-    const cgt_capsule_double_terms e = terms_of(ray, capsule);
-    const double error = cgt_capsule_double_disc_error(&e);
+    const int near = line->part[0], far = line->part[1];
     cgt_capsule_part parts[2];
-    if (e.nn == 0) /* a sphere */
-        return cgt_decide_sphere_roots(ray, cgt_capsule_end(capsule, CGT_CAPSULE_P), exact);
-    if (e.disc < -error)
-        return 0;
-    const line_parts line = parts_of_line(&e, ray, capsule);
-    const int near = line.part[0], far = line.part[1];
-    if (near == CGT_CAPSULE_SIDE && e.disc > error)
+    if (near == CGT_CAPSULE_SIDE && e->disc > cgt_capsule_double_disc_error(e))
         return 2;
     if ((near == CGT_CAPSULE_P || near == CGT_CAPSULE_Q) && far != UNKNOWN) {
         const int roots = cgt_decide_sphere_roots(ray, cgt_capsule_end(capsule, (cgt_capsule_part)near), exact);
@@ -98,6 +91,17 @@ int cgt_decide_capsule_roots(const cgt_ray *ray, const cgt_capsule *capsule, uin
     }
     ++*exact;
     return cgt_exact_capsule_roots(&ray->line, capsule, parts);
+}
+
+int cgt_decide_capsule_roots(const cgt_ray *ray, const cgt_capsule *capsule, uint64_t *exact)
+{
+    const cgt_capsule_double_terms e = terms_of(ray, capsule);
+    if (e.nn == 0) /* a sphere */
+        return cgt_decide_sphere_roots(ray, cgt_capsule_end(capsule, CGT_CAPSULE_P), exact);
+    if (e.disc < -cgt_capsule_double_disc_error(&e))
+        return 0;
+    const line_parts line = parts_of_line(&e, ray, capsule);
+    return roots_of_line(ray, capsule, &e, &line, exact);
 }
 
 /* ---- canonical values ---- */
@@ -129,25 +133,59 @@ static double root_at(const cgt_ray *ray, const cgt_capsule *capsule, const cgt_
     return cgt_exact_t(&ray->line, &(cgt_exact_root){&primitive, far});
 }
 
+/* As cgt_canonical_capsule_t, of a capsule that is no sphere. */
+static double first_root(const cgt_ray *ray, const cgt_capsule *capsule, const cgt_capsule_double_terms *e,
+                         const line_parts *line, bool *far, cgt_capsule_part *part)
+{
+    *far = false;
+    *part = part_at(ray, capsule, line, false);
+    const double near = root_at(ray, capsule, e, false, *part);
+    if ((float)near >= fmaxf(ray->t_min, -FLT_MAX))
+        return near;
+    *far = true;
+    *part = part_at(ray, capsule, line, true);
+    return root_at(ray, capsule, e, true, *part);
+}
+
 double cgt_canonical_capsule_t(const cgt_ray *ray, const cgt_capsule *capsule, bool *far, cgt_capsule_part *part)
 {
     const cgt_capsule_double_terms e = terms_of(ray, capsule);
     *part = CGT_CAPSULE_P;
     if (e.nn == 0) /* a sphere */
         return cgt_canonical_sphere_t(ray, cgt_capsule_end(capsule, CGT_CAPSULE_P), far);
-    *far = false;
-    *part = part_at(ray, capsule, &e, false);
-    const double near = root_at(ray, capsule, &e, false, *part);
-    if ((float)near >= fmaxf(ray->t_min, -FLT_MAX))
-        return near;
-    *far = true;
-    return cgt_canonical_capsule_far(ray, capsule, part);
+    const line_parts line = parts_of_line(&e, ray, capsule);
+    return first_root(ray, capsule, &e, &line, far, part);
+}
+
+bool cgt_decide_capsule_hit(const cgt_ray *ray, cgt_decided_hit *hit, uint64_t *exact)
+{
+    const cgt_capsule *capsule = &hit->primitive.capsule;
+    const cgt_capsule_double_terms e = terms_of(ray, capsule);
+    if (e.nn == 0) { /* a sphere */
+        const cgt_sphere sphere = cgt_capsule_end(capsule, CGT_CAPSULE_P);
+        if (!cgt_decide_sphere_roots(ray, sphere, exact))
+            return false;
+        hit->part = CGT_CAPSULE_P;
+        hit->t = cgt_canonical_sphere_t(ray, sphere, &hit->far);
+        return true;
+    }
+    if (e.disc < -cgt_capsule_double_disc_error(&e))
+        return false;
+    const line_parts line = parts_of_line(&e, ray, capsule);
+    if (!roots_of_line(ray, capsule, &e, &line, exact))
+        return false;
+    hit->t = first_root(ray, capsule, &e, &line, &hit->far, &hit->part);
+    return true;
 }
 
 double cgt_canonical_capsule_far(const cgt_ray *ray, const cgt_capsule *capsule, cgt_capsule_part *part)
 {
     const cgt_capsule_double_terms e = terms_of(ray, capsule);
-    *part = e.nn == 0 ? CGT_CAPSULE_P : part_at(ray, capsule, &e, true);
+    *part = CGT_CAPSULE_P;
+    if (e.nn != 0) {
+        const line_parts line = parts_of_line(&e, ray, capsule);
+        *part = part_at(ray, capsule, &line, true);
+    }
     return root_at(ray, capsule, &e, true, *part);
 }
 

@@ -10,6 +10,9 @@
 /* In how many places the line of the ray meets the capsule's surface, up to 2. */
 int cgt_decide_capsule_roots(const cgt_ray *ray, const cgt_capsule *capsule, uint64_t *exact);
 
+/* Whether the line of the ray meets hit->primitive, a capsule; if so, t, far and part as cgt_canonical_capsule_t. */
+bool cgt_decide_capsule_hit(const cgt_ray *ray, cgt_decided_hit *hit, uint64_t *exact);
+
 /* The first t at or after t_min where the ray, whose line meets the capsule, enters or leaves it. *far: it leaves;
  * *part: where. */
 double cgt_canonical_capsule_t(const cgt_ray *ray, const cgt_capsule *capsule, bool *far, cgt_capsule_part *part);

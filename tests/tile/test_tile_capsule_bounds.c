@@ -10,7 +10,7 @@
 
 static float filter_u = 0x1p-24f;
 #define FILTER_ROUNDOFF filter_u
-#include "kernel/tile_draw/tile_capsules.h"
+#include "kernel/tile_draw/tile_capsule_pairs.h"
 #include "kernel/tile_frame/tile_init.c"
 
 #include "tile/tile_bounds.h"
@@ -68,14 +68,11 @@ static void draw(tile *t, bool undecided[TILE_PIXELS])
     const cgt_primitives prims = {.array = &array, .arrays = 1, .count = 1, .capsules = 1};
     const uint32_t reference = 0;
     tile_capsules s;
-    tile_rect rect;
     cgt_counts counts = {0};
     queue.entries = 0;
     memset(undecided, 0, TILE_PIXELS * sizeof *undecided);
     tile_cull_capsules(t, &reference, 1, &prims, &s);
-    if (!(s.visible & 1) || !tile_clip_window(t, &s.window, 0, s.min_distance[0], &rect))
-        return;
-    tile_rasterise_capsule(&prims, t, t->parallel, &s, 0, 0, rect, &queue, &counts);
+    (void)tile_draw_capsules(&(tile_capsule_draw){&prims, t, &s, &reference, &queue, &counts}, t->parallel);
     for (uint32_t k = 0; k < queue.entries; k++)
         undecided[queue.pixel[k]] = true;
 }

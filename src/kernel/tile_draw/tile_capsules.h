@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Capsules against a tile. A vector of capsules at a time is culled by windows; each visible one is then tested over
- * the pixels of its window by lane_capsules.h, with a ray in each lane. The bounds there hold for any ray and capsule,
- * also around and behind the eye. So double precision is left to the queue.
+ * the pixels of its window by lane_capsules.h, with a ray in each lane; thin ones together (tile_capsule_pairs.h). The
+ * bounds there hold for any ray and capsule, also around and behind the eye. So double precision is left to the queue.
  *
  * The window: a capsule is the convex hull of the spheres around its ends. Where both are in front of the eye, it is
  * seen in the hull of what is seen of them, whose columns and rows are those from the first of both windows to the
@@ -61,6 +61,7 @@ typedef struct tile_capsules {
     _Alignas(64) float d[7][CGT_LANES]; /* the numbers of cgt_capsule */
     _Alignas(64) float min_distance[CGT_LANES];
     _Alignas(64) float strip[3][CGT_LANES], strip_width[CGT_LANES]; /* 1, px and py times these; no more in the strip */
+    float rlength;                                                  /* at least 1 / |d| of any ray of the tile */
     unsigned visible;                                               /* lanes, as bits */
     unsigned enclosing;                                             /* those that hold the eye */
 } tile_capsules;
@@ -206,6 +207,7 @@ CGT_SPU_INLINE void tile_cull_capsules(const tile *t, const uint32_t *reference,
         outside = tile_compute_hull(&t->column_span, 0, v, s->window.x0, s->window.x1);
         outside = spu_and(in_front, spu_or(outside, tile_compute_hull(&t->row_span, 1, v, s->window.y0, s->window.y1)));
     }
+    s->rlength = 1 / sqrtf(t->min_norm) * (1 + 0x1p-17f);
     spux_store(s->min_distance, min_distance);
     tile_store_strips(t, v, in_front, s);
     const vfloat far_distance = tile_window_far_distance(t, &s->window, &large_windows);
@@ -233,23 +235,29 @@ typedef struct tile_capsule {
     vfloat p[3], q[3], radius;
     vfloat strip[3], strip_width;
     vfloat nearest; /* no depth is less */
-    vfloat rlength; /* at least 1 / |d| of any ray of the tile */
+    vfloat rlength;
     vuint prim;
 } tile_capsule;
+
+/* No pixel's depth at capsule k is less, as the tile's error is. */
+CGT_SPU_INLINE float tile_nearest_depth(const tile *t, const tile_capsules *s, int k)
+{
+    const float nearest = s->min_distance[k] * tile_min_distance_scale(t);
+    return (nearest > 0 ? nearest : 0) - t->padded_depth_error;
+}
 
 CGT_SPU_INLINE tile_capsule tile_broadcast_capsule(const tile *t, const tile_capsules *s, int k, uint32_t prim)
 {
     tile_capsule q = {.radius = spux_vfloat(s->d[6][k]),
                       .strip_width = spux_vfloat(s->strip_width[k]),
-                      .rlength = spux_vfloat(1 / sqrtf(t->min_norm) * (1 + 0x1p-17f)),
+                      .nearest = spux_vfloat(tile_nearest_depth(t, s, k)),
+                      .rlength = spux_vfloat(s->rlength),
                       .prim = spux_vuint(prim)};
     for (int a = 0; a < 3; a++) {
         q.strip[a] = spux_vfloat(s->strip[a][k]);
         q.p[a] = spux_vfloat(s->d[a][k]);
         q.q[a] = spux_vfloat(s->d[3 + a][k]);
     }
-    const float nearest = s->min_distance[k] * tile_min_distance_scale(t);
-    q.nearest = spux_vfloat((nearest > 0 ? nearest : 0) - t->padded_depth_error);
     return q;
 }
 
@@ -375,29 +383,6 @@ CGT_SPU_INLINE void tile_rasterise_capsule_by(const cgt_primitives *prims, tile 
                                 prim, counts);
     }
     counts->packet_tests++;
-}
-
-/* Not inlined, as few capsules are so wide or hold the eye. */
-__attribute__((noinline)) static void tile_rasterise_wide(const cgt_primitives *prims, tile *t, const tile_capsules *s,
-                                                          int k, uint32_t prim, tile_rect rect, tile_queue *queue,
-                                                          cgt_counts *counts)
-{
-    tile_strip_columns crossed;
-    if (s->enclosing >> k & 1)
-        tile_rasterise_capsule_by(prims, t, false, true, NULL, s, k, prim, rect, queue, counts);
-    else if (!tile_init_strip_columns(t, s, k, rect, &crossed))
-        tile_rasterise_capsule_by(prims, t, t->parallel, false, NULL, s, k, prim, rect, queue, counts);
-    else
-        tile_rasterise_capsule_by(prims, t, t->parallel, false, &crossed, s, k, prim, rect, queue, counts);
-}
-
-CGT_SPU_INLINE void tile_rasterise_capsule(const cgt_primitives *prims, tile *t, bool parallel, const tile_capsules *s,
-                                           int k, uint32_t prim, tile_rect rect, tile_queue *queue, cgt_counts *counts)
-{
-    if (__builtin_expect(rect.x1 - rect.x0 >= CGT_LANES || s->enclosing >> k & 1, 0))
-        tile_rasterise_wide(prims, t, s, k, prim, rect, queue, counts);
-    else
-        tile_rasterise_capsule_by(prims, t, parallel, false, NULL, s, k, prim, rect, queue, counts);
 }
 
 #endif

@@ -13,7 +13,7 @@
  *   planes            tile_resolve.c                   t, u, v and normals */
 #include "kernel/packet/packet.h"
 #include "kernel/tile/prefetch_queue.h"
-#include "kernel/tile_draw/tile_capsules.h"
+#include "kernel/tile_draw/tile_capsule_pairs.h"
 #include "kernel/tile_draw/tile_parallel_triangles.h"
 #include "kernel/tile_draw/tile_sphere_draw.h"
 #include "kernel/tile_draw/tile_triangle_draw.h"
@@ -190,22 +190,12 @@ __attribute__((noinline)) static void tile_test_capsules(void *owner, const uint
     tile_work *w = owner;
     const cgt_primitives *prims = &w->committed_scene->prims;
     tile_capsules s;
-    uint32_t rasterised = 0;
+    const tile_capsule_draw draw = {prims, w->t, &s, reference, &w->queue, w->counts};
     tile_cull_capsules(w->t, reference, count, prims, &s);
     if (s.visible)
         tile_ensure_pixels(w->t);
-    for (unsigned remaining = s.visible; remaining; remaining &= remaining - 1) {
-        const int k = __builtin_ctz(remaining);
-        tile_rect rect;
-        if (!tile_clip_window(w->t, &s.window, k, s.min_distance[k], &rect))
-            continue;
-        rasterised++;
-        if (w->t->parallel)
-            tile_rasterise_capsule(prims, w->t, true, &s, k, reference[k], rect, &w->queue, w->counts);
-        else
-            tile_rasterise_capsule(prims, w->t, false, &s, k, reference[k], rect, &w->queue, w->counts);
-    }
-    tile_count_references(w, count, rasterised);
+    tile_count_references(w, count,
+                          w->t->parallel ? tile_draw_capsules(&draw, true) : tile_draw_capsules(&draw, false));
 }
 
 /* In a crowd, such as of capsules one within the other, brings the nearest one to the front: most others are then known
