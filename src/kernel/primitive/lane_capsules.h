@@ -175,7 +175,7 @@ CGT_SPU_INLINE bool lane_test_capsule(const lane_rays *r, const vfloat p[3], con
 
 /* ---- The line alone, in fewer operations ----
  * With m = d x n and c = p - org a line misses the capsule if |m.c| > r |m|. In normalised space, with |d_a| <= 2 and A
- * at least |c| and the error of the origin: n is off by u |n_a|, and m by three times that in its factors: by 6 u |n| in
+ * at least |c| and the error of the origin: n is off by u |n_a|, and m by three times that in its factors, 6 u |n| in
  * each component, none of which is above 2 |n|. Then m.c is within
  *   2 |n| A (3 u + u + 3 u)
  * by m, by c and by the sum, and |m| within 3 u sqrt(3) 2 |n| < 11 u |n|. So it misses where
