@@ -405,8 +405,8 @@ static int read_anew(const char *name, const char *lines)
     return failed ? -1 : 0;
 }
 
-/* Sets an option to these values, a line each, in place of all that it had; an empty line: without a value; "": takes it
- * back. What is refused changes nothing. */
+/* Sets an option to these values, a line each, in place of all that it had; an empty line: without a value; "": takes
+ * it back. What is refused changes nothing. */
 EMSCRIPTEN_KEEPALIVE int web_put(const char *name, const char *values)
 {
     static const char *const of_reading[] = {"unwrap", "whole", "trails"};

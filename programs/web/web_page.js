@@ -39,7 +39,8 @@
         const message = () => cgt.UTF8ToString(cgt._web_message());
         const tell = (type, rest, transfer) => self.postMessage({type, ...rest}, transfer || []);
         let width = 0, height = 0, left = 0, begins = false, moved = 0, playing = false, due = 0, frames = 0;
-        let rate = 30, isOpen = false, outdated = false, hasShadows = true, soft = 0, names = []; // soft: milliseconds of its first step
+        let rate = 30, isOpen = false, outdated = false, names = [];
+        let hasShadows = true, soft = 0; // of pictures in motion; milliseconds of the first step of soft light
         let scheduled = false, timer = 0, spare = [], pending = 0;
 
         const fail = () => { isOpen = playing = false; left = 0; tell('error', {text: message()}); };
@@ -85,7 +86,7 @@
                 } else {
                     if (cgt._web_draw(hasShadows ? 1 : 0) < 0)
                         return fail();
-                    hasShadows = hasShadows && performance.now() - now < 40; // where they take long: until the next file
+                    hasShadows = hasShadows && performance.now() - now < 40; // until the next file
                     left = -1; // not begun
                 }
                 outdated = false;
@@ -124,7 +125,8 @@
 
         // What is set: the values of each option, a line each.
         const values = (name) => cgt.ccall('web_values', 'string', ['string'], [name]);
-        const tellValues = () => tell('values', {values: Object.fromEntries(names.map((name) => [name, values(name)]))});
+        const tellValues = () =>
+            tell('values', {values: Object.fromEntries(names.map((name) => [name, values(name)]))});
 
         function open(name, bytes) {
             playing = false;
@@ -141,7 +143,8 @@
             if (!isOpen)
                 return fail();
             frames = cgt._web_frames();
-            tell('opened', {name, frames, columns: JSON.parse(cgt.UTF8ToString(cgt._web_columns()))});
+            const columns = JSON.parse(cgt.UTF8ToString(cgt._web_columns()));
+            tell('opened', {name, frames, columns});
             tellValues();
             for (let text; (text = cgt._web_warning());)
                 tell('warning', {text: cgt.UTF8ToString(text)});

@@ -6,6 +6,7 @@
 /* exported createPanel */
 function createPanel(root, {put, say}) {
     const opened = ['Colours and light:', 'Style and light:', 'What is drawn:']; // what people change most
+    const grey = '#808080'; // of colours without digits
     const most = 100; // changes that can be undone
     const fields = new Map(), changes = [];
     let columns = [], latest = {};
@@ -25,12 +26,13 @@ function createPanel(root, {put, say}) {
     function makeEntry(row, id) {
         const words = (row.words || '').split(' ').filter((word) => word);
         if (row.kind === 'word')
-            return make('select', {id}, make('option', {value: ''}, 'default'), ...words.map((word) => make('option', {}, word)));
+            return make('select', {id}, make('option', {value: ''}, 'default'),
+                ...words.map((word) => make('option', {}, word)));
         if (row.repeats)
-            return make('textarea', {id, rows: 1, placeholder: row.value + ', one a line'});
+            return make('textarea', {id, rows: 1, placeholder: row.value, title: 'One value a line'});
         const isNumber = row.kind === 'number' || row.kind === 'whole';
-        const entry = make('input', {id, type: isNumber ? 'number' : 'text', placeholder: row.value, autocomplete: 'off',
-                                     spellcheck: false});
+        const entry = make('input', {id, type: isNumber ? 'number' : 'text', placeholder: row.value,
+                                     autocomplete: 'off', spellcheck: false});
         if (isNumber)
             Object.assign(entry, {min: row.low, max: row.high, step: row.kind === 'whole' ? 1 : 'any'});
         return entry;
@@ -51,8 +53,8 @@ function createPanel(root, {put, say}) {
             f.entry.value = values.trim();
         if (f.row.repeats)
             f.entry.rows = Math.max(1, Math.min(6, values.split('\n').length - 1));
-        if (f.swatch && /^#?[0-9a-f]{6}$/i.test(values.trim()))
-            f.swatch.value = '#' + values.trim().replace('#', '');
+        if (f.swatch)
+            f.swatch.value = /^#?[0-9a-f]{6}$/i.test(values.trim()) ? '#' + values.trim().replace('#', '') : grey;
         f.reset.style.visibility = values === '' ? 'hidden' : 'visible';
         refuse(f, '');
     }
@@ -81,8 +83,9 @@ function createPanel(root, {put, say}) {
         if (row.kind !== 'switch')
             f.entry = makeEntry(row, f.toggle ? id + '-value' : id);
         if (row.kind === 'color')
-            f.swatch = make('input', {type: 'color', value: '#808080', 'aria-label': row.name + ': choose a colour'});
-        f.reset = make('button', {type: 'button', title: 'Reset ' + row.name, 'aria-label': 'Reset ' + row.name}, '\u00d7');
+            f.swatch = make('input', {type: 'color', 'aria-label': row.name + ': choose a colour'});
+        const reset = 'Reset ' + row.name;
+        f.reset = make('button', {type: 'button', title: reset, 'aria-label': reset}, '\u00d7');
         f.refused = make('p', {className: 'refused', id: id + '-refused', role: 'alert', hidden: true});
         const help = make('p', {className: 'help', id: id + '-help', hidden: true}, row.help);
         const more = make('button', {type: 'button', 'aria-label': 'About ' + row.name, 'aria-expanded': false,
