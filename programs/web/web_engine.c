@@ -354,7 +354,13 @@ static int repeats(const char *name)
 /* Sets an option to exactly these lines, as web_values has them. What is refused may leave some of several. */
 static int set_lines_of(const char *name, const char *lines)
 {
-    if ((!lines[0] || repeats(name)) && web_unset(name))
+    const int is_list = repeats(name);
+    const size_t first = strcspn(lines, "\n");
+    if (!is_list && lines[first] && lines[first + 1]) {
+        snprintf(web.message, sizeof web.message, "%.80s: the option takes one value", name);
+        return -1;
+    }
+    if ((!lines[0] || is_list) && web_unset(name))
         return -1;
     for (const char *line = lines; *line;) {
         const size_t length = strcspn(line, "\n");

@@ -233,6 +233,8 @@ async function testPanel(browser, address, [across, down]) {
             await page.run(`document.querySelector('[data-option="${option}"] [title^=Reset]').click()`);
             assert.deepStrictEqual(await state(), ['', 'alert', false, 'false', '']);
         }
+        const put = await page.run(`cgtPage.ask('put', {name: 'range', values: '1,2\\n3,4\\n'})`);
+        assert.deepStrictEqual([put.before, put.after, put.text], ['', '', 'range: the option takes one value']);
         await edit(page, 'background', 'navy');
         assert(!await same(before));
         await page.run(`cgtPage.left = -1; document.querySelector('[data-option=background] [title^=Reset]').click()`);
