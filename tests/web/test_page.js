@@ -191,7 +191,8 @@ async function testPanel(browser, address, [across, down]) {
         await settle(page);
         const pictures = [await pixels(page)];
         for (const [option, value] of [['trails', '3'], ['color', 'z'], ['background', '203040'], ['box', undefined],
-                                       ['bonds', '1.1'], ['show', 'z < 5\nx > 0'], ['style', 'plain']]) {
+                                       ['background', '604020'], ['bonds', '1.1'], ['show', 'z < 5\nx > 0'],
+                                       ['style', 'plain']]) {
             if (option === 'style')
                 await page.run(`(() => { cgtPage.left = -1; const s = document.getElementById('option-style');
                     s.value = 'plain'; s.onchange(); })()`);
