@@ -27,7 +27,8 @@ static struct {
     uint8_t *pixels;
     char message[1024];
     char doubt[1100]; /* why the file's frames end too early, or options are left out, until it is told; "": nothing */
-    char *options;
+    char *options, *columns, *values; /* of the last calls that tell them */
+    char path[256];                   /* of the file */
 } web;
 
 EMSCRIPTEN_KEEPALIVE int web_seek(uint32_t number);
@@ -69,28 +70,94 @@ EMSCRIPTEN_KEEPALIVE int web_start(uint32_t threads)
 
 /* ---- Options ------------------------------------------------------------------------------------------------ */
 
-static void print_text(FILE *to, const char *name, const char *text)
+/* As JSON has it. */
+static void print_string(FILE *to, const char *before, const char *text)
 {
-    fprintf(to, ",\"%s\":", name);
-    if (!text)
-        fputs("null", to);
-    else
-        fputc('"', to);
+    fputs(before, to);
+    fputs(text ? "\"" : "null", to);
     for (; text && *text; text++)
-        fprintf(to, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
+        if ((unsigned char)*text < ' ')
+            fprintf(to, "\\u%04x", (unsigned)*text);
+        else
+            fprintf(to, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
     if (text)
         fputc('"', to);
 }
 
-/* What may be set, as an array of JSON: the members of cgt_figure_option. NULL: no memory. */
+static void print_text(FILE *to, const char *name, const char *text)
+{
+    fprintf(to, ",\"%s\":", name);
+    print_string(to, "", text);
+}
+
+/* A figure with one sphere that is kept: what it refuses this build cannot do. NULL: no memory. */
+static cgt_figure *create_probe(cgt_figure_frame **frame)
+{
+    static const float place[3] = {0.0f};
+    const cgt_figure_data data = {.points = {.count = 1, .positions = cgt_floats(place, 12)}};
+    cgt_figure *probe = NULL;
+    uint64_t lead;
+    *frame = NULL;
+    if (cgt_figure_create(web.context, &probe) == CGT_OK && cgt_figure_survey(probe, &data) == CGT_OK &&
+        cgt_figure_begin_keep(probe, &lead) == CGT_OK && cgt_figure_keep(probe, &data, frame, NULL, 0) == CGT_OK &&
+        cgt_figure_show_frame(probe, *frame) == CGT_OK)
+        return probe;
+    cgt_figure_frame_release(*frame);
+    cgt_figure_release(probe);
+    return NULL;
+}
+
+/* Sets an option to any value that its kind may have, and takes it back. The sentence is "" where it is taken. */
+static void try_option(cgt_figure *probe, const cgt_figure_option *o, char *sentence, size_t size)
+{
+    char low[32];
+    const int is_number = o->kind == CGT_FIGURE_NUMBER || o->kind == CGT_FIGURE_WHOLE;
+    snprintf(low, sizeof low, "%.9g", is_number ? o->low : 1.0);
+    sentence[0] = '\0';
+    if (cgt_figure_set(probe, o->name, o->kind == CGT_FIGURE_SWITCH || o->is_optional ? NULL : low))
+        cgt_figure_get_error_message(probe, sentence, size);
+    cgt_figure_unset(probe, o->name);
+}
+
+/* Whether the page has an option. without_text: the sentence that refuses texts, "": they can be written. */
+static int has_option(cgt_figure *probe, const cgt_figure_option *o, const char *without_text)
+{
+    static const char *const canvas[] = {"size", "transparent"};      /* it has the window's size, and no alpha */
+    static const char *const letters[] = {"label-text", "text-size"}; /* how texts look, which alone is not refused */
+    char sentence[256];
+    for (size_t i = 0; i < sizeof canvas / sizeof canvas[0]; i++)
+        if (strcmp(o->name, canvas[i]) == 0)
+            return 0;
+    if (o->value && strcmp(o->value, "FILE") == 0) /* of the user's disk */
+        return 0;
+    for (size_t i = 0; without_text[0] && i < sizeof letters / sizeof letters[0]; i++)
+        if (strcmp(o->name, letters[i]) == 0)
+            return 0;
+    try_option(probe, o, sentence, sizeof sentence);
+    return !without_text[0] || strcmp(sentence, without_text) != 0;
+}
+
+/* What may be set, as an array of JSON: the members of cgt_figure_option, without what a page cannot have. NULL: no
+ * memory. */
 EMSCRIPTEN_KEEPALIVE const char *web_options(void)
 {
     static const char *const kinds[] = {"switch", "word", "number", "whole", "color", "text", "formula", "list"};
+    const cgt_figure_option axes = {.name = "axes", .kind = CGT_FIGURE_SWITCH}; /* three letters */
+    char without_text[256];
     cgt_figure_option o;
+    cgt_figure_frame *frame;
     size_t size;
-    FILE *const to = web.options ? NULL : open_memstream(&web.options, &size);
+    if (web.options)
+        return web.options;
+    cgt_figure *const probe = create_probe(&frame);
+    FILE *const to = probe ? open_memstream(&web.options, &size) : NULL;
+    if (to)
+        try_option(probe, &axes, without_text, sizeof without_text);
+    int count = 0;
     for (uint32_t i = 0; to && cgt_figure_get_option(i, &o); i++) {
-        fprintf(to, "%s{\"kind\":\"%s\"", i ? "," : "[", kinds[o.kind]);
+        if (!has_option(probe, &o, without_text))
+            continue;
+        fprintf(to, "%s{\"kind\":\"%s\"", count++ ? "," : "[", kinds[o.kind]);
         print_text(to, "name", o.name);
         print_text(to, "group", o.group);
         print_text(to, "value", o.value);
@@ -107,6 +174,8 @@ EMSCRIPTEN_KEEPALIVE const char *web_options(void)
         free(web.options);
         web.options = NULL;
     }
+    cgt_figure_frame_release(frame);
+    cgt_figure_release(probe);
     return web.options;
 }
 
@@ -125,6 +194,23 @@ static int change(const char *name, const char *value, int is_set)
 /* Sets an option of the picture, NULL: without a value; or takes it back. What is refused changes nothing. */
 EMSCRIPTEN_KEEPALIVE int web_set(const char *name, const char *value) { return change(name, value, 1); }
 EMSCRIPTEN_KEEPALIVE int web_unset(const char *name) { return change(name, NULL, 0); }
+
+/* Settings of a figure as cgt_figure_get has them, to be freed. NULL: no memory. */
+static char *get_settings(const cgt_figure *figure, const char *name)
+{
+    const size_t length = cgt_figure_get(figure, name, NULL, 0);
+    char *const text = malloc(length + 1);
+    if (text)
+        cgt_figure_get(figure, name, text, length + 1);
+    return text;
+}
+
+/* What was set of an option: its values, a line each; "": nothing. NULL: no memory. */
+EMSCRIPTEN_KEEPALIVE const char *web_values(const char *name)
+{
+    free(web.values);
+    return web.values = get_settings(web.figure, name);
+}
 
 /* ---- A file ------------------------------------------------------------------------------------------------- */
 
@@ -179,7 +265,7 @@ static int open_file(const char *path, const char *settings)
         return fail("out of memory");
     cgt_figure_release(web.figure);
     web.figure = figure;
-    cgt_figure_set_source(figure, strrchr(path, '/') ? strrchr(path, '/') + 1 : path);
+    cgt_figure_set_source(figure, strrchr(web.path, '/') ? strrchr(web.path, '/') + 1 : web.path);
     if (check(cgt_figure_set_lines(figure, settings)) ||
         frame_source_open(&web.file, &web.raw, &path, 1, &options, web.message, sizeof web.message))
         return fail_file();
@@ -201,6 +287,7 @@ static int open_file(const char *path, const char *settings)
 /* Opens a file. Options that do not fit it are left out, but for size and style. */
 EMSCRIPTEN_KEEPALIVE int web_open(const char *path)
 {
+    snprintf(web.path, sizeof web.path, "%s", path);
     char settings[4096], few[128] = "size = ", why[sizeof web.message];
     const size_t length = cgt_figure_get(web.figure, NULL, settings, sizeof settings);
     cgt_figure_get(web.figure, "size", few + strlen(few), 32);
@@ -253,6 +340,117 @@ int web_seek(uint32_t number)
     return 0;
 }
 
+/* ---- All values of an option -------------------------------------------------------------------------------- */
+
+static int repeats(const char *name)
+{
+    cgt_figure_option o;
+    for (uint32_t i = 0; cgt_figure_get_option(i, &o); i++)
+        if (strcmp(name, o.name) == 0)
+            return o.repeats;
+    return 0;
+}
+
+/* Sets an option to exactly these lines, as web_values has them. What is refused may leave some of several. */
+static int set_lines_of(const char *name, const char *lines)
+{
+    const int is_list = repeats(name);
+    const size_t first = strcspn(lines, "\n");
+    if (!is_list && lines[first] && lines[first + 1]) {
+        snprintf(web.message, sizeof web.message, "%.80s: the option takes one value", name);
+        return -1;
+    }
+    if ((!lines[0] || is_list) && web_unset(name))
+        return -1;
+    for (const char *line = lines; *line;) {
+        const size_t length = strcspn(line, "\n");
+        char *const value = strndup(line, length);
+        const int failed = !value ? fail("out of memory for options") : web_set(name, length ? value : NULL);
+        free(value);
+        if (failed)
+            return -1;
+        line += length + (line[length] == '\n');
+    }
+    return 0;
+}
+
+/* Opens the file anew for an option by which frames are read: where they are kept a figure refuses it. */
+static int read_anew(const char *name, const char *lines)
+{
+    const uint32_t number = web_frame();
+    const cgt_camera camera = web.camera;
+    char *const before = get_settings(web.figure, NULL), *next = NULL;
+    cgt_figure_frame *const shown = web.shown;
+    cgt_figure *const figure = web.figure;
+    int failed = before ? 0 : fail("out of memory for options");
+    if (failed || cgt_figure_create(web.context, &web.figure)) { /* one without frames finds what the settings are */
+        web.figure = figure;
+        free(before);
+        return failed ? failed : fail("out of memory");
+    }
+    web.shown = NULL;
+    failed = check(cgt_figure_set_lines(web.figure, before)) || set_lines_of(name, lines);
+    if (!failed)
+        next = get_settings(web.figure, NULL);
+    cgt_figure_release(web.figure);
+    web.figure = figure;
+    web.shown = shown;
+    if (!failed && !next)
+        failed = fail("out of memory for options");
+    if (!failed) {
+        char why[sizeof web.message];
+        failed = open_file(web.path, next);
+        memcpy(why, web.message, sizeof why);
+        if (!(failed && open_file(web.path, before)) && web_seek(number) == 0) { /* else there is no file any more */
+            web.camera = camera;
+            memcpy(web.message, why, sizeof why);
+        }
+    }
+    free(before);
+    free(next);
+    return failed ? -1 : 0;
+}
+
+/* Sets an option to these values, a line each, in place of all that it had; an empty line: without a value; "": takes
+ * it back. What is refused changes nothing. */
+EMSCRIPTEN_KEEPALIVE int web_put(const char *name, const char *values)
+{
+    static const char *const of_reading[] = {"unwrap", "whole", "trails"};
+    for (size_t i = 0; web.shown && i < sizeof of_reading / sizeof of_reading[0]; i++)
+        if (strcmp(name, of_reading[i]) == 0)
+            return read_anew(name, values);
+    char *const before = get_settings(web.figure, name);
+    if (!before)
+        return fail("out of memory for options");
+    const int failed = set_lines_of(name, values);
+    if (failed && repeats(name)) {
+        char why[sizeof web.message];
+        memcpy(why, web.message, sizeof why);
+        set_lines_of(name, before);
+        memcpy(web.message, why, sizeof why);
+    }
+    free(before);
+    return failed;
+}
+
+/* Names of the columns that formulas and colours may use, as an array of JSON. NULL: no memory. */
+EMSCRIPTEN_KEEPALIVE const char *web_columns(void)
+{
+    const cgt_trajectory_frame *const frame = web.shown ? cgt_figure_frame_get_data(web.shown) : NULL;
+    size_t size;
+    free(web.columns);
+    web.columns = NULL;
+    FILE *const to = open_memstream(&web.columns, &size);
+    if (!to)
+        return NULL;
+    fputc('[', to);
+    for (uint32_t i = 0; frame && i < frame->columns; i++) {
+        print_string(to, i ? "," : "", frame->column[i].name);
+    }
+    fputc(']', to);
+    return fclose(to) ? NULL : web.columns;
+}
+
 /* The next thing that is doubtful about the file, or was chosen for it; NULL: there is none. */
 EMSCRIPTEN_KEEPALIVE const char *web_warning(void)
 {
@@ -285,14 +483,14 @@ EMSCRIPTEN_KEEPALIVE int web_resize(uint32_t width, uint32_t height)
 
 EMSCRIPTEN_KEEPALIVE uint8_t *web_pixels(void) { return web.pixels; }
 
-/* Draws the frame by the hand's camera, as fast as it goes. */
-EMSCRIPTEN_KEEPALIVE int web_draw(void)
+/* Draws the frame by the hand's camera, as fast as it goes, or with hard shadows. */
+EMSCRIPTEN_KEEPALIVE int web_draw(int shadows)
 {
     const cgt_image image = {.bytes = web.pixels, .channels = 4};
     if (!web.shown)
         return fail("no file is open");
     return check(cgt_figure_set_camera(web.figure, &web.camera)) ||
-                   check(cgt_figure_draw_quick(web.figure, CGT_FIGURE_PLAIN, 1, &image))
+                   check(cgt_figure_draw_quick(web.figure, shadows ? CGT_FIGURE_SHADOWS : CGT_FIGURE_PLAIN, 1, &image))
                ? -1
                : 0;
 }

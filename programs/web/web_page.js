@@ -39,7 +39,8 @@
         const message = () => cgt.UTF8ToString(cgt._web_message());
         const tell = (type, rest, transfer) => self.postMessage({type, ...rest}, transfer || []);
         let width = 0, height = 0, left = 0, begins = false, moved = 0, playing = false, due = 0, frames = 0;
-        let rate = 30, isOpen = false, outdated = false;
+        let rate = 30, isOpen = false, outdated = false, names = [];
+        let hasShadows = true, soft = 0; // of pictures in motion; milliseconds of the first step of soft light
         let scheduled = false, timer = 0, spare = [], pending = 0;
 
         const fail = () => { isOpen = playing = false; left = 0; tell('error', {text: message()}); };
@@ -57,6 +58,15 @@
             tell('picture', {buffer, width, height, frame, primitives, left, milliseconds}, [buffer]);
         }
 
+        // Adds a step of the style's light; a frame that is played has the first alone, where it is fast enough.
+        function grow() {
+            const now = performance.now();
+            left = cgt._web_grow(begins ? 1 : 0);
+            soft = begins ? performance.now() - now : soft;
+            begins = false;
+            return left;
+        }
+
         // One step; returns the milliseconds until the next, or nothing.
         function step() {
             const now = performance.now();
@@ -69,20 +79,24 @@
                 outdated = true;
             }
             if (outdated) {
-                if (cgt._web_draw() < 0)
-                    return fail();
+                begins = true;
+                if (playing && soft < 1000 / rate) {
+                    if (grow() < 0)
+                        return fail();
+                } else {
+                    if (cgt._web_draw(hasShadows ? 1 : 0) < 0)
+                        return fail();
+                    hasShadows = hasShadows && performance.now() - now < 40; // until the next file
+                    left = -1; // not begun
+                }
                 outdated = false;
                 moved = now;
-                left = -1; // not begun
-                begins = true;
                 show(performance.now() - now);
             } else if (left !== 0 && !playing) {
                 if (now - moved < 120 && begins)
                     return 120 - (now - moved);
-                left = cgt._web_grow(begins ? 1 : 0);
-                if (left < 0)
+                if (grow() < 0)
                     return fail();
-                begins = false;
                 show(performance.now() - now);
             }
             return playing ? Math.max(0, due - performance.now()) : left !== 0 || outdated ? 0 : undefined;
@@ -109,6 +123,11 @@
             }
         }
 
+        // What is set: the values of each option, a line each.
+        const values = (name) => cgt.ccall('web_values', 'string', ['string'], [name]);
+        const tellValues = () =>
+            tell('values', {values: Object.fromEntries(names.map((name) => [name, values(name)]))});
+
         function open(name, bytes) {
             playing = false;
             left = 0;
@@ -119,10 +138,14 @@
             const status = cgt.ccall('web_open', 'number', ['string'], [path]);
             isOpen = status === 0;
             outdated = isOpen;
+            hasShadows = true;
+            soft = 0;
             if (!isOpen)
                 return fail();
             frames = cgt._web_frames();
-            tell('opened', {name, frames});
+            const columns = JSON.parse(cgt.UTF8ToString(cgt._web_columns()));
+            tell('opened', {name, frames, columns});
+            tellValues();
             for (let text; (text = cgt._web_warning());)
                 tell('warning', {text: cgt.UTF8ToString(text)});
             return undefined;
@@ -139,13 +162,30 @@
                     cgt._web_fit();
                 outdated = isOpen;
             },
-            options: () => tell('options', {rows: JSON.parse(cgt.UTF8ToString(cgt._web_options()))}),
+            options: () => {
+                const rows = JSON.parse(cgt.UTF8ToString(cgt._web_options()));
+                names = rows.map((row) => row.name);
+                tell('options', {rows});
+                tellValues();
+            },
             set: (m) => { // without a value: null; undefined takes it back
                 const isSet = m.value !== undefined;
                 const status = isSet ? cgt.ccall('web_set', 'number', ['string', 'string'], [m.name, m.value])
                     : cgt.ccall('web_unset', 'number', ['string'], [m.name]);
                 tell('set', {text: status < 0 ? message() : ''});
+                tellValues();
                 outdated = isOpen;
+            },
+            put: (m) => { // all values of an option, a line each
+                const before = values(m.name);
+                const status = cgt.ccall('web_put', 'number', ['string', 'string'], [m.name, m.values]);
+                tell('put', {name: m.name, isUndo: m.isUndo, before, after: values(m.name),
+                             text: status < 0 ? message() : ''});
+                if (isOpen && !cgt._web_frames())
+                    return fail();
+                tellValues();
+                outdated = isOpen;
+                return undefined;
             },
             turn: (m) => { cgt._web_turn(m.x, m.y); outdated = isOpen; },
             pan: (m) => { cgt._web_pan(m.x, m.y); outdated = isOpen; },
@@ -191,7 +231,7 @@
         const begin = performance.now();
         const page = window.cgtPage =
             {ready: 0, first: 0, pictures: 0, left: 0, milliseconds: 0, error: '', picked: null};
-        let playing = false, sliding = false, waiting = {};
+        let playing = false, sliding = false, playsFirst = false, waiting = {};
         page.send = send;
         page.ask = (type, rest, answer) => new Promise((done) => { waiting[answer || type] = done; send(type, rest); });
 
@@ -199,6 +239,20 @@
             page.error = isError ? text : '';
             $('message').textContent = text;
             $('message').className = isError ? 'error' : '';
+        }
+        const panel = createPanel($('panel'), {
+            put: (name, values, isUndo) => send('put', {name, values, isUndo}),
+            say,
+        });
+        function openPanel(on) {
+            if (on && !panel.isBuilt())
+                send('options');
+            $('panel').hidden = !on;
+            $('options').setAttribute('aria-expanded', on);
+            if (on)
+                $('close').focus();
+            else
+                $('options').focus();
         }
         function setPlaying(on) {
             playing = on;
@@ -210,12 +264,13 @@
             ready: (m) => { page.ready = performance.now() - begin; page.threads = m.threads; },
             opened: (m) => {
                 page.opened = m.name;
-                playing = false;
-                $('play').textContent = 'Play';
+                panel.setColumns(m.columns);
                 say(m.name + (m.frames > 1 ? ': ' + m.frames + ' frames' : ''));
                 $('time').max = Math.max(0, m.frames - 1);
                 for (const id of ['time', 'play'])
                     $(id).disabled = m.frames < 2;
+                setPlaying(playsFirst && m.frames > 1 && !matchMedia('(prefers-reduced-motion: reduce)').matches);
+                playsFirst = false;
             },
             warning: (m) => say(m.text),
             error: (m) => { playing = false; $('play').textContent = 'Play'; say(m.text, true); },
@@ -237,7 +292,13 @@
             },
             picked: (m) => { page.picked = m.id; say(m.text || ''); },
             set: (m) => { if (m.text) say(m.text); },
-            options: () => {},
+            options: (m) => { if (!panel.isBuilt()) panel.build(m.rows); },
+            values: (m) => {
+                panel.update(m.values);
+                if ('style' in m.values)
+                    $('style').value = m.values.style.trim() || 'soft';
+            },
+            put: (m) => panel.answer(m),
             camera: () => {},
             memory: () => {},
         };
@@ -308,12 +369,32 @@
         // ---- Size: as many pixels as the window has -----------------------------------------------------------------
 
         const fixed = new URLSearchParams(location.search).get('size'); // 640x360, for tests
+        let size = '';
         function resize() {
             const [w, h] = fixed ? fixed.split('x').map(Number)
                 : [canvas.clientWidth * devicePixelRatio, canvas.clientHeight * devicePixelRatio];
-            send('size', {width: Math.max(1, Math.round(w)), height: Math.max(1, Math.round(h))});
+            const width = Math.max(1, Math.round(w)), height = Math.max(1, Math.round(h));
+            if (size !== width + 'x' + height)
+                send('size', {width, height});
+            size = width + 'x' + height;
         }
         addEventListener('resize', resize);
+        new ResizeObserver(resize).observe(canvas); // the panel takes room from it
+
+        // ---- First sight: what to do; inside another page wheel and touch are that page's until a click ------------
+
+        const isEmbedded = window !== window.top, isTouched = matchMedia('(pointer: coarse)').matches;
+        let isActive = !isEmbedded;
+        function setActive(on) {
+            isActive = on || !isEmbedded;
+            canvas.style.touchAction = isActive ? 'none' : 'auto';
+        }
+        setActive(false);
+        $('hint').textContent = isEmbedded ? (isTouched ? 'tap, then drag or pinch' : 'drag, click to scroll in')
+            : isTouched ? 'drag, pinch, open a file' : 'drag, scroll, drop a file';
+        const endHint = () => { $('hint').hidden = true; };
+        canvas.addEventListener('click', () => setActive(true));
+        addEventListener('blur', () => setActive(false));
 
         // ---- Pointers: one turns, two move and zoom, a click picks --------------------------------------------------
 
@@ -329,6 +410,9 @@
             return {x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, size: Math.hypot(a.x - b.x, a.y - b.y)};
         };
         canvas.addEventListener('pointerdown', (e) => {
+            if (!isActive && e.pointerType === 'touch')
+                return;
+            endHint();
             canvas.setPointerCapture(e.pointerId);
             pointers.set(e.pointerId, at(e));
             travelled = pointers.size > 1 ? 1e9 : 0;
@@ -360,6 +444,9 @@
         canvas.addEventListener('pointercancel', up);
         canvas.addEventListener('contextmenu', (e) => e.preventDefault());
         canvas.addEventListener('wheel', (e) => {
+            if (!isActive)
+                return;
+            endHint();
             e.preventDefault();
             send('zoom', {...at(e), factor: Math.pow(1.0015, Math.max(-400, Math.min(400, e.deltaY)))});
         }, {passive: false});
@@ -370,31 +457,52 @@
         $('time').oninput = () => { sliding = true; playing = false; $('play').textContent = 'Play';
                                     send('seek', {frame: +$('time').value}); };
         $('time').onchange = () => { sliding = false; };
-        $('style').onchange = () => send('set', {name: 'style', value: $('style').value});
+        $('style').onchange = () => send('put', {name: 'style', values: $('style').value + '\n'});
+        $('options').onclick = () => openPanel($('panel').hidden);
+        $('close').onclick = () => openPanel(false);
+        $('undo').onclick = () => panel.undo();
         $('fit').onclick = () => send('fit');
         $('file').onchange = () => { for (const f of $('file').files) openFile(f.name, f); };
         addEventListener('dragover', (e) => e.preventDefault());
         addEventListener('drop', (e) => {
             e.preventDefault();
+            endHint();
             for (const f of e.dataTransfer.files)
                 openFile(f.name, f);
         });
         addEventListener('keydown', (e) => {
-            if (e.target.tagName === 'SELECT' || e.ctrlKey || e.metaKey || e.altKey)
+            const isTyped = e.target.closest('select, textarea, input:not([type=range]):not([type=checkbox])');
+            const isUndo = (e.ctrlKey || e.metaKey) && !e.shiftKey && e.key === 'z';
+            if (e.key === 'Escape' && !$('panel').hidden) {
+                openPanel(false);
+            } else if (isUndo && !panel.isEdited(e.target)) { // else the field's own
+                panel.undo();
+                e.preventDefault();
+            }
+            if (isTyped || e.ctrlKey || e.metaKey || e.altKey)
                 return;
-            if (e.key === ' ') {
+            if (e.key === ' ' && !e.target.closest('button, summary, input[type=checkbox]')) {
                 setPlaying(!playing);
                 e.preventDefault();
             }
             if (e.key === 'f')
                 send('fit');
+            if (e.key === 'o') {
+                openPanel($('panel').hidden);
+                e.preventDefault();
+            }
+            if (e.key === 'u')
+                panel.undo();
         });
 
         resize();
-        send('set', {name: 'style', value: $('style').value});
-        if (!new URLSearchParams(location.search).has('empty'))
+        $('style').value = 'soft'; // a browser may keep what was there before
+        if (!new URLSearchParams(location.search).has('empty')) {
+            playsFirst = true;
+            send('rate', {rate: 6}); // it has few frames
             openFile('pour.lammpstrj.gz',
                      new Blob([Uint8Array.from(atob($('shipped').textContent), (c) => c.charCodeAt(0))]));
+        }
     }
 
     const early = []; // messages that come before the library is there

@@ -108,6 +108,153 @@ async function measure(page) {
     return `made in ${of(0)}; shown in ${of(1)}`;
 }
 
+// ---- The panel of options, in a window of a size ------------------------------------------------------------------
+
+async function key(page, key, code, modifiers = 0) {
+    for (const type of ['keyDown', 'keyUp'])
+        await page.do('Input.dispatchKeyEvent', {type, key, modifiers, windowsVirtualKeyCode: code,
+            ...(type === 'keyDown' && key.length === 1 && !modifiers ? {text: key} : {}),
+            ...(type === 'keyDown' && key === 'Enter' ? {text: '\r'} : {})});
+}
+// The field of an option's value.
+const entryOf = (name) =>
+    `document.querySelector('[data-option="${name}"]').querySelector('textarea, input:not([type=checkbox])')`;
+// Types an option's value as a user does, or presses its checkbox; waits for the engine's answer and the picture.
+async function edit(page, name, value) {
+    await page.run(`cgtPage.left = -1`);
+    if (value === undefined) {
+        await page.run(`document.getElementById('option-${name}').click()`);
+    } else {
+        await page.run(`(() => {
+            const e = ${entryOf(name)};
+            e.closest('details').open = true;
+            e.focus();
+            e.select();
+        })()`);
+        await page.do('Input.insertText', {text: value});
+        await page.run(`document.activeElement.blur()`);
+    }
+    await settle(page);
+}
+// The least contrast of the panel's texts to what is behind them, as WCAG 2 has it.
+const contrast = (page) => page.run(`(() => {
+    const parse = (c) => c.match(/[\\d.]+/g).map(Number);
+    const light = (c) => c.slice(0, 3).map((v) => v / 255)
+        .map((v) => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+        .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
+    const behind = (e) => {
+        const c = parse(getComputedStyle(e).backgroundColor);
+        return c[3] === 0 ? behind(e.parentElement) : c;
+    };
+    return Math.min(...[...document.querySelectorAll('#panel :is(label, summary, button:enabled, p, input, h2)')]
+        .map((e) => [light(parse(getComputedStyle(e).color)), light(behind(e))].sort((a, b) => b - a))
+        .map(([a, b]) => (a + 0.05) / (b + 0.05)));
+})()`);
+
+async function testPanel(browser, address, [across, down]) {
+    const page = await browser.open(address), name = `panel, ${across} pixels wide`;
+    const same = async (a) => Buffer.compare(a, await pixels(page)) === 0;
+    await page.do('Emulation.setDeviceMetricsOverride',
+        {width: across, height: down, deviceScaleFactor: 1, mobile: false});
+    await drop(page, 'pour2k.lammpstrj', read('pour2k.lammpstrj'));
+    await page.run(`cgtPage.ask('seek', {frame: 20}, 'picture').then(() => cgtPage.ask('fit', {}, 'picture'))`);
+    await test(`${name}: each option has a control with a label and help`, async () => {
+        await key(page, 'o', 79);
+        await page.until(`document.querySelector('[data-option]')`);
+        const rows = await page.run(`cgtPage.ask('options').then((m) => m.rows)`);
+        const found = await page.run(`[...document.querySelectorAll('[data-option]')].map((e) => ({
+            name: e.dataset.option,
+            control: e.querySelector('label').control && e.querySelector('label').control.id,
+            help: e.querySelector('.help').textContent,
+            types: [...e.querySelectorAll('.control > *')].map((c) => c.type || c.tagName)}))`);
+        assert.deepStrictEqual(found.map((f) => f.name), rows.map((row) => row.name));
+        const types = {switch: 'checkbox', word: 'select-one', number: 'number', whole: 'number', color: 'color'};
+        rows.forEach((row, i) => {
+            assert.strictEqual(found[i].control, 'option-' + row.name);
+            assert.strictEqual(found[i].help, row.help);
+            assert(found[i].types.includes(types[row.kind] || (row.repeats ? 'textarea' : 'text')), row.name);
+        });
+        for (const none of ['title', 'axes', 'font', 'camera-keys', 'size'])
+            assert(!rows.some((row) => row.name === none), none);
+        const [wide, hidden, left, right, high, pictureWide, pictureHigh] = await page.run(`(() => {
+            const p = document.getElementById('panel'), b = p.getBoundingClientRect();
+            const picture = document.getElementById('picture');
+            return [document.documentElement.scrollWidth, p.scrollWidth - p.clientWidth, b.left, b.right, b.height,
+                    picture.clientWidth, picture.clientHeight];
+        })()`);
+        assert(wide <= across && hidden <= 0, `${wide}, ${hidden} pixels`);
+        assert(left >= 0 && right <= across && high >= 250, `${left}, ${right}, ${high}`);
+        assert(pictureWide >= 300 && pictureHigh >= 200, `the picture is ${pictureWide}x${pictureHigh}`);
+        return `${rows.length} options`;
+    });
+    await test(`${name}: changes show, and are undone`, async () => {
+        await settle(page);
+        const pictures = [await pixels(page)];
+        for (const [option, value] of [['trails', '3'], ['color', 'z'], ['background', '203040'], ['box', undefined],
+                                       ['background', '604020'], ['bonds', '1.1'], ['show', 'z < 5\nx > 0'],
+                                       ['style', 'plain']]) {
+            if (option === 'style')
+                await page.run(`(() => { cgtPage.left = -1; const s = document.getElementById('option-style');
+                    s.value = 'plain'; s.onchange(); })()`);
+            else
+                await edit(page, option, value);
+            await settle(page);
+            assert.strictEqual(await page.run(`document.getElementById('option-${option}-refused').textContent`), '');
+            assert(!await same(pictures.at(-1)), `${option} changes nothing`);
+            pictures.push(await pixels(page));
+            assert.strictEqual(await page.run('cgtPage.frame'), 20);
+        }
+        await page.screenshot(path.join(out, `panel_${across}.png`));
+        assert.strictEqual(await page.run(`document.getElementById('style').value`), 'plain');
+        for (pictures.pop(); pictures.length; pictures.pop()) {
+            await page.run(`cgtPage.left = -1; document.activeElement.blur()`);
+            await (pictures.length % 2 ? key(page, 'u', 85) : key(page, 'z', 90, 2));
+            await settle(page);
+            assert(await same(pictures.at(-1)), `undo ${pictures.length}`);
+        }
+        assert(await page.run(`document.getElementById('undo').disabled`));
+    });
+    await test(`${name}: what is refused says why, and keeps the picture`, async () => {
+        const before = await pixels(page);
+        for (const [option, value, says] of [['show', 'z < 5 &&', /show/], ['color', 'no_such', /no column "no_such"/],
+                                             ['fill', '200', /fill/], ['background', 'nonsense', /background/]]) {
+            const state = () => page.run(`(() => {
+                const p = document.getElementById('option-${option}-refused'), e = ${entryOf(option)};
+                return [p.textContent, p.getAttribute('role'), p.offsetHeight > 0, e.getAttribute('aria-invalid'),
+                    e.value];
+            })()`);
+            await edit(page, option, value);
+            const [text, ...rest] = await state();
+            assert.match(text, says);
+            assert.deepStrictEqual(rest, ['alert', true, 'true', value]);
+            assert(await same(before), option);
+            if (option === 'show')
+                await page.screenshot(path.join(out, `refused_${across}.png`));
+            assert(await contrast(page) >= 4.5, `contrast ${await contrast(page)}`);
+            await page.run(`document.querySelector('[data-option="${option}"] [title^=Reset]').click()`);
+            assert.deepStrictEqual(await state(), ['', 'alert', false, 'false', '']);
+        }
+        const put = await page.run(`cgtPage.ask('put', {name: 'range', values: '1,2\\n3,4\\n'})`);
+        assert.deepStrictEqual([put.before, put.after, put.text], ['', '', 'range: the option takes one value']);
+        await edit(page, 'background', 'navy');
+        assert(!await same(before));
+        await page.run(`cgtPage.left = -1; document.querySelector('[data-option=background] [title^=Reset]').click()`);
+        await settle(page);
+        assert(await same(before), 'reset');
+    });
+    await test(`${name}: keys`, async () => {
+        await key(page, 'Escape', 27);
+        assert(await page.run(`document.getElementById('panel').hidden && document.activeElement.id === 'options'`));
+        await key(page, 'Enter', 13);
+        assert(await page.run(`!document.getElementById('panel').hidden && document.activeElement.id === 'close'`));
+        await page.run(`document.getElementById('option-color').focus()`);
+        await key(page, 'o', 79); // typed, not a command
+        assert(await page.run(`!document.getElementById('panel').hidden`));
+        assert.strictEqual(await page.run(`document.getElementById('option-color').value`), 'o');
+    });
+    await page.close();
+}
+
 async function main() {
     const alone = await serve(pages, false), isolated = await serve(pages, true), browser = await start();
     const url = (server, query) => `${server.url}/cgt-web.html?${query}`;
@@ -120,6 +267,12 @@ async function main() {
         assert.strictEqual(await page.run('cgtPage.error'), '');
         assert.strictEqual(await page.run('cgtPage.threads'), 1);
         const first = await page.run('Math.round(cgtPage.first)');
+        await page.until(`document.getElementById('play').textContent === 'Pause'`); // and it plays, in soft light
+        await page.until('cgtPage.frame > 1');
+        assert.strictEqual(await page.run(`document.getElementById('style').value`), 'soft');
+        assert.strictEqual(await page.run(`document.getElementById('hint').textContent`), 'drag, scroll, drop a file');
+        await drag(page, [300, 200], [320, 210]);
+        await page.until(`document.getElementById('hint').hidden`);
         await page.until(`!document.getElementById('play').disabled`);
         await page.run(`cgtPage.ask('seek', {frame: 9}, 'picture')`);
         await page.screenshot(path.join(out, 'shipped.png'));
@@ -140,6 +293,7 @@ async function main() {
         await test(`${name}: plain pixels are cgt-render's`, async () => {
             await drop(page, 'caffeine.xyz', read('caffeine.xyz'));
             assert.strictEqual(await page.run('cgtPage.error'), '');
+            await style(page, 'plain');
             await compare(page, path.join(data, 'caffeine.xyz'), 'plain');
         });
         await test(`${name}: a drag turns, and the pixels are cgt-render's`, async () => {
@@ -200,6 +354,7 @@ async function main() {
             assert.strictEqual(await page.run('cgtPage.frame'), frame);
         }
         await page.run(`cgtPage.ask('fit', {}, 'picture')`);
+        await style(page, 'plain');
         await compare(page, path.join(data, 'pour2k.lammpstrj'), 'plain', 4);
         const spheres = +read('pour2k.lammpstrj').toString().split('NUMBER OF ATOMS\n')[5].split('\n')[0];
         assert.strictEqual(await page.run(`document.getElementById('frame').textContent`),
@@ -296,6 +451,29 @@ async function main() {
         return `${(after.used / 1048576).toFixed(1)} of ${after.bytes / 1048576} MiB`;
     });
     await page.close();
+    for (const size of [[1280, 720], [390, 844]])
+        await testPanel(browser, url(isolated, small), size);
+    await test('inside another page the wheel acts after a click', async () => {
+        const around = await browser.open(url(isolated, small));
+        const inner = `<iframe src="${url(isolated, small)}" width="400" height="300"></iframe>`;
+        await around.run(`document.body.innerHTML = '${inner}'`);
+        await around.until(`frames[0] && frames[0].cgtPage && frames[0].cgtPage.ready`);
+        await around.run(`frames[0].cgtPage.open('caffeine.xyz', ${JSON.stringify(read('caffeine.xyz').toString())})`);
+        await around.until(`frames[0].cgtPage.pictures`);
+        const turnWheel = async () => {
+            await around.do('Input.dispatchMouseEvent', {type: 'mouseWheel', x: 150, y: 100, deltaX: 0, deltaY: 200});
+            await new Promise((done) => setTimeout(done, 200));
+            return around.run(`frames[0].cgtPage.ask('camera').then((m) => m.text)`);
+        };
+        const before = await around.run(`frames[0].cgtPage.ask('camera').then((m) => m.text)`);
+        assert.strictEqual(await around.run(`getComputedStyle(frames[0].picture).touchAction`), 'auto');
+        assert.strictEqual(await turnWheel(), before);
+        await mouse(around, 'mousePressed', 150, 100);
+        await mouse(around, 'mouseReleased', 150, 100, 0);
+        assert.notStrictEqual(await turnWheel(), before);
+        assert.strictEqual(await around.run(`getComputedStyle(frames[0].picture).touchAction`), 'none');
+        await around.close();
+    });
     await test('a picture of 1280x720', async () => {
         const lines = [];
         for (const [name, server] of [['one thread', alone], ['all threads', isolated]])
