@@ -232,6 +232,27 @@ TEST(frame_of_many_tiles)
     dual_scene_free(&b);
 }
 
+/* Each of a crowd is nearer than those before it: brought to the front, the nearest one spares most others a decision. */
+TEST(crowds_begin_with_the_nearest)
+{
+    static capsule_scene s;
+    test_random r = random_make(925);
+    frames_tally tally = {0};
+    cgt_camera camera;
+    s = (capsule_scene){.capsules = MOST, .scale = 1};
+    for (uint32_t i = 0; i < MOST; i++)
+        place_coaxial(&s, &r, i, s.capsule[i]);
+    dual_scene b = commit_scene(&s, 0);
+    cgt_camera_init(&camera);
+    camera.eye[2] = 3;
+    camera.fov = 40;
+    compare_frame(&b, &camera, 64, 64, "a crowd", &tally);
+    print_tally("a crowd", &tally);
+    assert_int_equal(tally.served, 1);
+    assert_true(tally.counts.double_tests < tally.counts.hits * MOST / 4 * 3); /* else each of them for each hit */
+    dual_scene_free(&b);
+}
+
 /* No point of a capsule is nearer to the eye than the least distance, and all of its points that are seen lie in the
  * window. */
 TEST(windows_hold_capsules)
