@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from typing import Any, Dict, Iterator, Optional
+from typing import Any, Dict, Iterator, List, NamedTuple, Optional
 
 import numpy as np
 
@@ -16,6 +16,23 @@ from .trajectory import Trajectory, TrajectoryFrame, TrajectorySlice
 
 _WHOLE = ("id", "type", "element")
 _OWN = {"x", "y", "z", "vx", "vy", "vz", "radius", *_WHOLE}  # columns of files that frames have as attributes
+
+
+class Words(NamedTuple):
+    """A column of words, and those that go before all others of it."""
+
+    texts: Any
+    known: List[str]
+
+    def number(self, table: List[str]) -> np.ndarray:
+        """Which word of the table each is, from 1 on, 0 for none. New ones come to its end, in the order of the data."""
+        words, first, place = np.unique(self.texts, return_index=True, return_inverse=True)
+        at = {word: i for i, word in enumerate(table, 1)}
+        for word in [*self.known, *words[np.argsort(first)].tolist()]:
+            if word and word not in at:
+                table.append(word)
+                at[word] = len(table)
+        return np.array([at.get(word, 0) for word in words.tolist()], F4)[place.reshape(-1)]
 
 
 class FigureData:
@@ -50,8 +67,8 @@ class FigureData:
             self.corner, self.unwrapped = numbers("corner", corner, F8, (3,)), np.asarray(unwrapped) != 0
         self.number, self.step, self.time, self.unread = number, step, time, unread
 
-    def fill(self, ffi, number: int, origin, keep: list):
-        """The C struct, and in `keep` what it points to."""
+    def fill(self, ffi, number: int, origin, keep: list, tables: Dict[str, List[str]]):
+        """The C struct, and in `keep` what it points to; tables: of words, by column, from frame to frame."""
         c = ffi.new("cgt_figure_data *")
         c.number = whole("number", number, 0, 2**63) if self.number is None else whole("number", self.number, 0, 2**63)
         c.step = c.number if self.step is None else whole("step", self.step, -2**63, 2**63 - 1)
@@ -66,8 +83,9 @@ class FigureData:
         for column, (name, values) in zip(columns, self.columns.items()):
             keep.append(ffi.new("char[]", name.encode(errors="replace")))
             column.name = keep[-1]
-            if isinstance(values, tuple):
-                values, words = values
+            if isinstance(values, Words):
+                words = tables.setdefault(name, [])
+                values = values.number(words)
                 keep += [ffi.new("char[]", str(word).encode(errors="replace")) for word in words]
                 keep.append(ffi.new("const char *[]", keep[len(keep) - len(words):]))
                 column.words, column.word_count = keep[-1], len(words)
@@ -98,14 +116,14 @@ def _floats(name: str, values, shape) -> np.ndarray:
 
 
 def _column(name: str, values, count: int):
-    """Numbers of a column, or words: which of them, from 1 on, and the list."""
-    a = array_of(f"columns: {name}", values, np.nan)
+    """Numbers of a column, or words."""
+    known = values.known if isinstance(values, Words) else []
+    a = array_of(f"columns: {name}", values.texts if isinstance(values, Words) else values, np.nan)
     if a.dtype == object:
         a = a.astype(str)
     if a.dtype.kind in "US":
         check_shape(f"columns: {name}", a, (count,))
-        words, place = np.unique(a.astype(str), return_inverse=True)
-        return (place.reshape(-1) + 1).astype(F4), words.tolist()
+        return Words(a.astype(str), known)
     if name in _WHOLE:
         return numbers(name, a, U4, (count,))
     if name in ("velocity", "normal", "rgb"):
@@ -160,7 +178,8 @@ def _of_frame(f: TrajectoryFrame) -> dict:
                          ("velocity", f.velocities), ("normal", f.vertex_normals)):
         if values is not None:
             columns[name] = values
-    columns.update((name, values) for name, values in f.columns.items() if name not in _OWN)
+    columns.update((name, Words(values, f._words[name]) if name in f._words else values)
+                   for name, values in f.columns.items() if name not in _OWN)
     found = {"positions": positions, "columns": columns, "triangles": f.triangles, "bonds": f.bonds,
              "angstrom": f.angstrom, "number": f.number, "step": f.step, "origin": f.origin.tolist(),
              "time": None if np.isnan(f.time) else f.time, "unread": set(f.column_names) - set(f.columns)}

@@ -180,8 +180,8 @@ class Figure(Plain):
     (48, 64, 3)
     """
 
-    __slots__ = ("_handle", "_context", "_context_handle", "_gate", "_texts", "_notices", "_origin", "_looked",
-                 "_shown", "_again", "_pixels", "_counts")
+    __slots__ = ("_handle", "_context", "_context_handle", "_gate", "_texts", "_notices", "_origin", "_words",
+                 "_looked", "_shown", "_again", "_pixels", "_counts")
     _unmade = {"_made": False, "_handle": None, "_gate": Gate("figure")}
     _handle: Any
 
@@ -233,6 +233,7 @@ class Figure(Plain):
     def _forget(self, again: Optional[FigureData] = None) -> None:
         """What C forgets as its options change, but for a frame that is to be shown again."""
         self._origin: Optional[list] = None
+        self._words: Dict[str, List[str]] = {}  # of columns, in the order in which they came
         self._looked = ""  # by whom frames were looked at: "survey", "show"
         self._shown: Optional[FigureData] = None
         self._again = again
@@ -314,7 +315,7 @@ class Figure(Plain):
         keep: list = []
         if self._origin is None:
             self._origin = list(data.origin) if data.origin else [0.0, 0.0, 0.0]
-        c = data.fill(ffi, number, self._origin, keep)
+        c = data.fill(ffi, number, self._origin, keep, self._words)
         try:
             self._check(call(self._open, c))
         except Error as error:
@@ -406,7 +407,7 @@ class Figure(Plain):
         data = None if mesh is None else take(mesh, **more)
         with self._gate.alone:
             keep: list = []
-            c = ffi.NULL if data is None else data.fill(ffi, 0, self._origin or data.origin or [0.0] * 3, keep)
+            c = ffi.NULL if data is None else data.fill(ffi, 0, self._origin or data.origin or [0.0] * 3, keep, {})
             self._check(lib.cgt_figure_set_mesh(self._open, c))
             self._forget()
             del keep

@@ -80,7 +80,7 @@ class TrajectoryFrame:
 
     __slots__ = ("number", "step", "time", "positions", "radii", "triangles", "vertex_normals", "ids", "types",
                  "velocities", "elements", "bonds", "origin", "box_origin", "box_edges", "periodic", "unwrapped",
-                 "has_radius", "angstrom", "columns", "column_names", "__weakref__")
+                 "has_radius", "angstrom", "columns", "column_names", "_words", "__weakref__")
 
     number: int
     step: int
@@ -119,7 +119,7 @@ class TrajectoryFrame:
         self.box_edges = edges if has_box else None
         self.periodic, self.unwrapped = (np.array(list(flags), np.int8) for flags in (f.periodic, f.unwrapped))
         self.has_radius, self.angstrom = bool(f.has_radius), f.angstrom
-        self.columns, names = {}, []
+        self.columns, self._words, names = {}, {}, []  # _words: those of the file so far, in its order
         for column in f.column[0:f.columns]:
             name = ffi.string(column.name).decode(errors="replace")
             names.append(name)
@@ -127,8 +127,9 @@ class TrajectoryFrame:
                 continue
             values = _array(column.value, (n,), "f4")
             if column.kind == _WORD:
-                words = np.array([ffi.string(w).decode(errors="replace") for w in column.word[0:column.words]] or [""])
-                values = words[values.astype(np.int64) - 1]
+                words = [ffi.string(w).decode(errors="replace") for w in column.word[0:column.words]]
+                values = np.array(["", *words])[values.astype(np.int64)]
+                self._words[name] = words
             self.columns[name] = values
         self.column_names = tuple(names)
 

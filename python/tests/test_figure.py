@@ -326,3 +326,21 @@ def test_the_mouse_turns_it_in_a_notebook(tmp_path, monkeypatch):
         (0, 1, False, True), (3, 1, False, False), (5, 1, False, False), (0, 1, False, True),
         (0, pytest.approx(np.e), False, True), (0, 1, True, True)]
     assert found["src"] == "blob 5" and found["width"] == 60 and found["taken"] == 4
+
+
+def test_words_keep_their_colours_from_frame_to_frame():
+    x = np.array([[0, 0, 0], [2, 0, 0], [4, 0, 0]], np.float32)
+    figure = cgt.Figure(size=(96, 32), color="kind", camera="2,0,9,2,0,0,0,1,0,40", style="plain")
+    figure.survey(x, radius=0.9, columns={"kind": ["oil", "salt", ""]})
+    figure.survey(x, radius=0.9, columns={"kind": ["salt", "oil", "air"]})
+    first = figure.show(x, radius=0.9, columns={"kind": ["oil", "salt", "oil"]}).draw().copy()
+    then = figure.show(x, radius=0.9, columns={"kind": ["salt", "salt", "oil"]}).draw()
+    assert [(first[16, c] == then[16, c]).all() for c in (38, 48, 58)] == [False, True, True]
+    assert (first[16, 48] != first[16, 58]).any() and (first[16, 48] != first[2, 2]).any()
+
+
+def test_atoms_without_a_word_have_none(tmp_path):
+    path = tmp_path / "two.pdb"
+    path.write_text("ATOM      1  CA  ALA A   1       0.000   0.000   0.000  1.00  0.00           C\n"
+                    "ATOM      2  CB  ALA     1       1.500   0.000   0.000  1.00  0.00           C\nEND\n")
+    assert cgt.read(path, columns=["chain"])[0]["chain"].tolist() == ["A", ""]
