@@ -214,10 +214,15 @@ __attribute__((noinline, unused)) static void leaf_stream_capsules(stream *s, co
 {
     leaf_strips x;
     leaf_strips_init(leaf, &x);
-    if (any_hit)
-        leaf_capsules_any(s, leaf, &x, m, box, list, rays, skips_prims);
+    /* with constants, so that nothing is kept that is not used */
+    if (any_hit && skips_prims)
+        leaf_capsules_any(s, leaf, &x, m, box, list, rays, true);
+    else if (any_hit)
+        leaf_capsules_any(s, leaf, &x, m, box, list, rays, false);
+    else if (skips_prims)
+        leaf_capsules_closest(s, leaf, &x, m, box, list, rays, true);
     else
-        leaf_capsules_closest(s, leaf, &x, m, box, list, rays, skips_prims);
+        leaf_capsules_closest(s, leaf, &x, m, box, list, rays, false);
 }
 
 #endif
