@@ -232,7 +232,7 @@ TEST(frame_of_many_tiles)
     dual_scene_free(&b);
 }
 
-/* Each of a crowd is nearer than those before it: brought to the front, the nearest one spares most others a decision. */
+/* Each of a crowd is nearer than those before it: brought to the front, the nearest spares most others a decision. */
 TEST(crowds_begin_with_the_nearest)
 {
     static capsule_scene s;
