@@ -52,9 +52,12 @@ uint32_t word_map_add(word_map *map, text_span word)
         return found;
     if (map->count == map->capacity && grow(map))
         return WORD_NONE;
-    char *const copy = strndup(word.begin, text_length(word));
+    const size_t length = text_length(word);
+    char *const copy = malloc(length + 1);
     if (copy == NULL)
         return WORD_NONE;
+    memcpy(copy, word.begin, length);
+    copy[length] = '\0';
     map->word[map->count++] = copy;
     map->slot[find_slot(map, word)] = map->count;
     return map->count - 1;
