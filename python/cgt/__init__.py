@@ -26,6 +26,7 @@ from typing import TYPE_CHECKING, Any
 from ._native import (
     Error, InUse, InvalidArgument, NotCommitted, OutOfMemory, Stopped, ThreadsRefused, TooLarge, Unsupported,
 )
+from ._bonds import half_bonds
 from ._frames import camera_rays
 from .context import Context, variants, version
 from .geometry import Camera, Capsules, Light, Spheres, Triangles
@@ -34,7 +35,7 @@ from .scene import Scene
 
 if TYPE_CHECKING:
     from . import colors, figure, research, trimesh
-    from ._show import show
+    from ._show import fit_camera, show
     from .figure import Figure
     from .picture import Look, Material, Picture, find_bodies
     from .trajectory import ReadError, Trajectory, TrajectoryFrame, read, sort_series
@@ -45,7 +46,7 @@ _LATER = {
     **dict.fromkeys(("read", "sort_series", "ReadError", "Trajectory", "TrajectoryFrame"),
                     (".trajectory", "._trajectory")),
     **dict.fromkeys(("Look", "Material", "Picture", "find_bodies"), (".picture", "._picture")),
-    "show": ("._show", "._figure"), "Figure": (".figure", "._figure"), "figure": (".figure", "._figure"),
+    **dict.fromkeys(("fit_camera", "show"), ("._show", "._figure")), "Figure": (".figure", "._figure"), "figure": (".figure", "._figure"),
     "colors": (".colors", "._picture"),
     "trimesh": (".trimesh", "._definitions"), "mpi": (".mpi", "._mpi"),
 }
@@ -53,8 +54,8 @@ __all__ = [
     "AllHits", "Camera", "Capsules", "Context", "Error", "Fields", "Figure", "Frame", "HitRows", "Hits", "INVALID_ID",
     "InUse", "InvalidArgument", "Light", "Look", "Material", "NotCommitted", "OutOfMemory", "Picture", "ReadError", "Scene",
     "SingleHit", "Spheres", "Stopped", "ThreadsRefused", "TooLarge", "Trajectory", "TrajectoryFrame", "Triangles",
-    "Unsupported", "camera_rays", "colors", "figure", "find_bodies", "read", "show", "sort_series",
-    "variants", "version",
+    "Unsupported", "camera_rays", "colors", "figure", "find_bodies", "fit_camera", "half_bonds", "read",
+    "show", "sort_series", "variants", "version",
 ]
 
 if not TYPE_CHECKING:  # to which a name that is not there is an error

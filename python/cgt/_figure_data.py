@@ -65,7 +65,21 @@ class FigureData:
             check_shape("cell", self.edges, (3, 3))
             self.periodic = np.broadcast_to(np.asarray(pbc), (3,)).astype(np.int8)
             self.corner, self.unwrapped = numbers("corner", corner, F8, (3,)), np.asarray(unwrapped) != 0
+            self._complete()
         self.number, self.step, self.time, self.unread = number, step, time, unread
+
+    def _complete(self) -> None:
+        """Sheets and chains have edges of no length: those are across the others there, as long as the data reach."""
+        missing = ~self.edges.any(axis=1)
+        if not missing.any() or missing.all() or not np.isfinite(self.edges).all():
+            return
+        self.edges, self.corner = np.array(self.edges, F8), np.array(self.corner, F8)
+        across = np.linalg.svd(self.edges[~missing])[2][-missing.sum():]
+        known = np.asarray(self.positions, F8)[np.isfinite(self.positions).all(axis=1)]
+        for k, normal in zip(np.flatnonzero(missing), across):
+            along = known @ normal if len(known) else np.zeros(1)
+            self.edges[k], self.periodic[k] = normal * max(np.ptp(along), 1.0), 0
+            self.corner += normal * (along.min() - self.corner @ normal)
 
     def fill(self, ffi, number: int, origin, keep: list, tables: Dict[str, List[str]]):
         """The C struct, and in `keep` what it points to; tables: of words, by column, from frame to frame."""

@@ -10,7 +10,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from typing import Any, List, Optional
+from typing import Any, List, Optional, Sequence, Union
 
 import numpy as np
 
@@ -19,12 +19,28 @@ from ._figure_data import FigureData
 from ._native import InvalidArgument
 from .colors import code_of, light_of
 from .figure import Figure
+from .geometry import Camera, _Geometry
 
 _DATA = ("columns", "cell", "pbc", "corner", "unwrapped", "angstrom", "number", "step", "time")
 
 
+def fit_camera(geometries: Union[_Geometry, Sequence[_Geometry]], width: int, height: int) -> Camera:
+    """A camera that sees all of some geometries, from a corner, with a margin of 4 percent.
+
+    Parameters
+    ----------
+    geometries : Spheres, Triangles, Capsules or a sequence of them
+    width, height : int
+        Pixels of the picture.
+    """
+    camera = Camera((0.62, -0.70, 0.36), (0, 0, 0), (0, 0, 1), 30.0)
+    camera.fit(geometries, width, height)
+    return camera
+
+
 def show(data, radii=None, colors: Any = None, *, bonds: Any = False, window: Optional[bool] = None,
-         **options: Any) -> Figure:
+         width: Optional[int] = None, height: Optional[int] = None, map: Optional[str] = None,
+         low: Optional[float] = None, high: Optional[float] = None, **options: Any) -> Figure:
     """A figure of one frame, which a notebook shows where this is the last line of a cell.
 
     At a prompt, where there is a display, it also opens the window of cgt-view, which goes with Python.
@@ -43,6 +59,10 @@ def show(data, radii=None, colors: Any = None, *, bonds: Any = False, window: Op
     window : bool, optional
         True: an error where no window can be opened; False: none. It has particles, their columns of numbers, and the
         options, but neither bonds that are pairs, nor a box, nor colours of each.
+    width, height : int, optional
+        In place of the option `size`.
+    map, low, high : optional
+        Name of a map and the values at its ends, in place of the options `colormap` and `range`.
     **options
         Those of `cgt.Figure`, and what its `show` takes.
 
@@ -57,6 +77,14 @@ def show(data, radii=None, colors: Any = None, *, bonds: Any = False, window: Op
     (48, 64, 3)
     """
     more = {name: options.pop(name) for name in _DATA if name in options}
+    if width is not None or height is not None:
+        options["size"] = (1280 if width is None else width, 720 if height is None else height)
+    if map is not None:
+        options["colormap"] = map
+    if (low is None) != (high is None):
+        raise InvalidArgument("low, high: both or neither")
+    if low is not None:
+        options["range"] = (low, high)
     if colors is not None and "color" in options:
         raise InvalidArgument("colors: color says another thing")
     if not isinstance(bonds, (bool, int, float, np.number)):

@@ -19,7 +19,7 @@ from typing import Optional, Tuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._arrays import F4, F8, U1, U2, array_of, check_shape, numbers
+from ._arrays import F4, F8, U1, U2, U4, array_of, check_shape, numbers
 from ._native import InvalidArgument, load_part, real
 
 ffi, lib = load_part("picture")
@@ -149,3 +149,24 @@ def entries(values: ArrayLike, low: Optional[float] = None, high: Optional[float
     low, high = ends[0] if low is None else low, ends[1] if high is None else high
     share = (np.where(known, values, low) - low) / (high - low if high > low else np.inf)
     return np.where(known, np.clip(share, 0, 1) * (STEPS - 1) + 0.5, STEPS).astype(U2)
+
+
+def by_value(values: ArrayLike, map: Optional[str] = None, low: Optional[float] = None,
+             high: Optional[float] = None) -> np.ndarray:
+    """The colours of values by a map, (n, 3) float32; arguments are those of `palette` and `entries`."""
+    return palette(map)[entries(values, low, high)]
+
+
+def _of_kinds(of, name, kinds) -> np.ndarray:
+    values, place = np.unique(numbers(name, kinds, U4, ("n",)), return_inverse=True)
+    return np.array([_color(of, int(v)) for v in values], F4).reshape(-1, 3)[place.reshape(-1)]
+
+
+def by_type(types: ArrayLike) -> np.ndarray:
+    """The colours of types, (n,) int from 1 on: sixteen, of which everyone can tell the first eight apart, again and again: (n, 3) float32."""
+    return _of_kinds(lib.cgt_get_type_color, "types", types)
+
+
+def by_element(numbers: ArrayLike) -> np.ndarray:
+    """The colours of elements, (n,) atomic numbers, Jmol's; 0 is unknown, a light pink: (n, 3) float32."""
+    return _of_kinds(lib.cgt_get_element_color, "numbers", numbers)

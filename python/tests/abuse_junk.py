@@ -42,6 +42,7 @@ def junk_for_geometries():
     sweep(CAMERA.fit, cgt.Spheres(x, r), 64, 48)
     sweep(cgt.Camera().orbit, 5)
     sweep(CAMERA.key_light, 64, 48)
+    sweep(cgt.half_bonds, x, [[0, 1]], np.eye(3), (1, 1, 1))
 
 
 @case()
@@ -104,7 +105,7 @@ def junk_for_pictures():
             picture.draw(scene, CAMERA, {1: look})
 
         sweep(draw, 0)
-    for call in (cgt.colors.palette, cgt.colors.entries):
+    for call in (cgt.colors.palette, cgt.colors.entries, cgt.colors.by_type, cgt.colors.by_element):
         sweep(call, 0)
 
 

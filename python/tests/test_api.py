@@ -31,7 +31,6 @@ FUNCTIONS_LEFT_OUT = {
     "cgt_picture_set_options": "another Picture",
     **{"cgt_camera_fit_" + name: "Camera.fit" for name in ("create", "release", "add", "add_box", "apply")},
     "cgt_srgb_from_linear": "cgt_srgb_encode, for colours that are given",
-    **{f"cgt_get_{kind}_color": "Figure has the colours of types and elements" for kind in ("type", "element")},
     # cgt-figure
     "cgt_figure_set": "set_lines, all at once", "cgt_figure_set_source": "messages of data, which have no path",
     "cgt_figure_needs_frame": "a survey looks at all that it is given",

@@ -89,9 +89,14 @@ CALLS = {  # each with what is no number of its arguments, and its arguments
     cgt.Camera: ({"projection"}, {**PLACES, **LENS, "mask": (WHOLE, 1)}),
     cgt.Light: ({"kind"}, {"position": (THREE, X[0])}),
     cgt.camera_rays: ({"camera"}, {"width": (WHOLE, 8), "height": (WHOLE, 6)}),
+    cgt.half_bonds: ({"periodic"}, {"positions": (DOUBLES, X), "bonds": (WHOLES, INDEX[:, :2]),
+                                    "edges": (DOUBLES, np.diag([1, 2, 3]).astype("f4"))}),
     cgt.Context: ({"variant", "log"}, {"threads": (WHOLE, 1)}),
     cgt.research.SceneOptions: ({"kd_layout"}, {"resolution": (THREE_WHOLE, [1, 2, 3]), "kd_break_level": (WHOLE, 2)}),
     cgt.colors.entries: (set(), {"values": (VALUES, R), "low": (NUMBER, 0.0), "high": (NUMBER, 1.0)}),
+    cgt.colors.by_value: ({"map"}, {"values": (VALUES, R), "low": (NUMBER, 0.0), "high": (NUMBER, 1.0)}),
+    cgt.colors.by_type: (set(), {"types": (WHOLES, np.arange(5, dtype="u4"))}),
+    cgt.colors.by_element: (set(), {"numbers": (WHOLES, np.arange(5, dtype="u4"))}),
     cgt.Look: ({"color", "colors", "map", "low", "high", "linear", "palette", "per_vertex", "halves", "sheet"}, {
         "index": (WHOLES, np.arange(4, dtype="u2")), "ids": (WHOLES, np.arange(4, dtype="u4")),
         "material": (WHOLES, np.arange(4, dtype="u1")), "bodies": (WHOLES, np.zeros(4, "u4")),
@@ -107,7 +112,7 @@ CALLS = {  # each with what is no number of its arguments, and its arguments
     MESH_RAYS.intersects_first: (set(), OF_MESH),
     MESH_RAYS.intersects_any: (set(), OF_MESH),
     MESH_RAYS.contains_points: (set(), {"points": (DOUBLES, X)}),
-    cgt.show: ({"colors", "bonds", "window", "options"}, {"data": (DOUBLES, X), "radii": (FLOATS, R)}),
+    cgt.show: ({"colors", "bonds", "window", "options", "width", "height", "map", "low", "high"}, {"data": (DOUBLES, X), "radii": (FLOATS, R)}),
     cgt.Figure: ({"context", "options"}, {}),
 }
 OTHERS = {"camera": cgt.Camera(), "light": cgt.Light((1, 2, 3)), "lights": [cgt.Light((1, 2, 3))], "hits": HITS,
@@ -324,7 +329,7 @@ def test_no_argument_is_left_out():
                        != "_" and callable(getattr(cgt.Scene, name))]
     public += [call for name, call in vars(MESH_RAYS).items() if name[:4] in ("inte", "cont")]
     # take paths, words or objects, or are made by calls
-    given = set("""read sort_series Trajectory TrajectoryFrame Scene find_bodies variants version Fields Hits
+    given = set("""read sort_series Trajectory TrajectoryFrame Scene find_bodies fit_camera variants version Fields Hits
         Frame HitRows AllHits SingleHit add remove commit close prepare set_options trace_bounced_rays
         intersects_location
         """.split())

@@ -344,3 +344,14 @@ def test_atoms_without_a_word_have_none(tmp_path):
     path.write_text("ATOM      1  CA  ALA A   1       0.000   0.000   0.000  1.00  0.00           C\n"
                     "ATOM      2  CB  ALA     1       1.500   0.000   0.000  1.00  0.00           C\nEND\n")
     assert cgt.read(path, columns=["chain"])[0]["chain"].tolist() == ["A", ""]
+
+
+def test_sheets_have_their_bonds_through_two_boundaries():
+    x, cell = [[0.2, 1, 0], [3.8, 1, 0]], np.diag([4.0, 4, 0])
+    pictures = [cgt.show(x, 0.3, bonds=[[0, 1]], cell=edges, pbc=(True, True, False), width=64, height=48, ambient=0,
+                         window=False).pixels for edges in (cell, np.diag([4.0, 4, 30]))]
+    assert np.array_equal(*pictures)
+    assert not np.array_equal(pictures[0], cgt.show(x, 0.3, bonds=[[0, 1]], size=(64, 48), ambient=0).pixels)
+    mapped = cgt.show(x, 0.3, [1.0, 2.0], map="magma", low=1, high=2, size=(64, 48), ambient=0, window=False).pixels
+    assert np.array_equal(mapped, cgt.show(x, 0.3, [1.0, 2.0], colormap="magma", range=(1, 2), size=(64, 48), ambient=0,
+                                           window=False).pixels)

@@ -288,13 +288,13 @@ def test_lights_without_shadows(scene):
     assert dark[30, 66, 2] < 20 < lit[30, 66, 2]
 
 
-def test_colours_of_values():
+def test_colours_of_values_types_and_elements():
     assert len(cgt.colors.maps()) >= 4
     for name in cgt.colors.maps():
         assert cgt.colors.palette(name).shape == (1025, 3)
     values = np.r_[np.linspace(0, 1, 1001), np.nan, np.inf]
     table = cgt.colors.palette()
-    by = table[cgt.colors.entries(values, low=0, high=1)]
+    by = cgt.colors.by_value(values, low=0, high=1)
     assert np.array_equal(by[[0, 1000]], table[[0, 1023]]) and np.array_equal(by[1001:], [cgt.colors.unknown()] * 2)
     assert cgt.colors.entries([-5, 9], low=0, high=1).tolist() == [0, 1023]
     entries = cgt.colors.entries(values)
@@ -303,6 +303,12 @@ def test_colours_of_values():
     assert cgt.colors.entries([np.nan]).tolist() == [1024] and cgt.colors.entries([]).shape == (0,)
     with pytest.raises(cgt.InvalidArgument, match="map: 'rainbow': one of viridis"):
         cgt.colors.palette("rainbow")
+    kinds = cgt.colors.by_type([1, 2, 17])
+    assert np.array_equal(kinds[0], kinds[2]) and not np.array_equal(kinds[0], kinds[1])
+    oxygen, unknown = cgt.colors.by_element(np.array([8, 0], "u1"))
+    assert oxygen[0] > oxygen[1] and unknown.min() > 0 and cgt.colors.by_type([]).shape == (0, 3)
+    with pytest.raises(cgt.InvalidArgument, match="types: -1 to 2: must fit uint32"):
+        cgt.colors.by_type([2, -1])
 
 
 def test_cameras_fit_turn_and_light():

@@ -447,6 +447,35 @@ def test_crossings():
         s.trace_hit_rows(org, dir, 1, after={"surface": [0, 0, 0]})
 
 
+def test_halves_of_bonds():
+    x = np.array([[0.5, 1, 1], [9.5, 1, 1], [4, 4, 4], [4, 9.9, 0.2]])
+    pairs = [[0, 1], [1, 2], [2, 3]]
+    plain, atoms = cgt.half_bonds(x, pairs)
+    assert atoms.tolist() == [0, 1, 2, 1, 2, 3] and np.array_equal(plain[0::2], x[atoms])
+    middle = plain[1::2]
+    assert np.array_equal(middle[:3], middle[3:]) and middle[0].tolist() == [5, 1, 1]
+    box = np.diag([10.0, 10, 10])
+    near, _ = cgt.half_bonds(x, pairs, box)
+    assert near[1].tolist() == [0, 1, 1] and near[7].tolist() == [10, 1, 1]
+    length = np.linalg.norm(near[1::2] - near[0::2], axis=1)
+    assert length.max() <= np.sqrt(3) * 5 / 2 and np.allclose(length[:3], length[3:])
+    wall, _ = cgt.half_bonds(x, pairs, box, (0, 1, 1))
+    assert np.array_equal(wall[1], plain[1]) and not np.array_equal(wall[5], plain[5])
+    tilted = np.array([[10, 0, 0], [3, 10, 0], [0, 0, 10.0]])
+    # the step is (7.2, -9) - (10, 0) + (3, 10)
+    leans, _ = cgt.half_bonds([[1, 9.5, 1], [8.2, 0.5, 1]], [[0, 1]], tilted)
+    assert np.allclose(leans[1] - leans[0], (0.1, 0.5, 0))
+    half = cgt.half_bonds([[0, 0, 0], [5, 0, 0]], [[0, 1]], box)[0]
+    assert half[1].tolist() == [2.5, 0, 0]  # half of an edge is no crossing
+    assert cgt.half_bonds(x, np.zeros((0, 2), int), box)[0].shape == (0, 3)
+    for bad, edges, message in (([[0, 4]], None, "bonds: 0 to 4, of 4 positions"), ([[0, -1]], None, "bonds: -1 to 0"),
+                                ([0, 1, 2], None, r"bonds: shape \(3,\): must be \(m, 2\)"),
+                                ([[0.5, 1]], None, "bonds: dtype float64: must be"),
+                                (pairs, np.zeros((3, 3)), "edges: .* the periodic edges")):
+        with pytest.raises(cgt.InvalidArgument, match=message):
+            cgt.half_bonds(x, bad, edges)
+
+
 def test_points_inside(cloud, scene):
     r = np.random.default_rng(3)
     p = r.uniform(-1, 1, (20, 50, 3)).astype("f4")
