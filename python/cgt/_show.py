@@ -17,7 +17,7 @@ import numpy as np
 from ._arrays import array_of
 from ._figure_data import FigureData
 from ._native import InvalidArgument
-from .colors import code_of, light_of
+from .colors import code_of, code_of_light, light_of
 from .figure import Figure
 from .geometry import Camera, _Geometry
 
@@ -52,7 +52,7 @@ def show(data, radii=None, colors: Any = None, *, bonds: Any = False, window: Op
     radii : float or (n,) float, optional
         None: those that it has, else by element, else 0.5.
     colors : colour, (n, 3) numbers, n names or (n,) numbers, optional
-        One for all, a name or a tuple; one each; or an array of values, for the map of the option `colormap`. None:
+        One for all, a name or three numbers; one each; or values, one each, for the map of the option `colormap`. None:
         what the option `color` says, by itself element or type, where it has some.
     bonds : bool, number or (m, 2) int, optional
         True: those that it has; a number: all pairs so near; pairs.
@@ -96,7 +96,10 @@ def show(data, radii=None, colors: Any = None, *, bonds: Any = False, window: Op
         options["color"] = colors
     elif colors is not None:
         a = array_of("colors", colors, np.nan)
-        if a.ndim == 1 and a.dtype.kind in "fiub":
+        is_one = a.shape == (3,) and map is None and not (hasattr(data, "__len__") and len(data) == 3)
+        if is_one and a.dtype.kind in "fiu":
+            options["color"], own = f"#{code_of_light(light_of('colors', colors, (3,)))}", {}
+        elif a.ndim == 1 and a.dtype.kind in "fiub":
             options["color"], own = "colors", {"colors": a}
         else:
             own = {"rgb": light_of("colors", colors, (len(a), 3))}

@@ -355,3 +355,14 @@ def test_sheets_have_their_bonds_through_two_boundaries():
     mapped = cgt.show(x, 0.3, [1.0, 2.0], map="magma", low=1, high=2, size=(64, 48), ambient=0, window=False).pixels
     assert np.array_equal(mapped, cgt.show(x, 0.3, [1.0, 2.0], colormap="magma", range=(1, 2), size=(64, 48), ambient=0,
                                            window=False).pixels)
+
+
+def test_three_numbers_are_a_colour_for_all():
+    x, like = np.random.default_rng(1).uniform(0, 5, (20, 3)), {"size": (64, 48), "window": False}
+    red = cgt.show(x, 0.3, "red", **like).pixels
+    for same in ([1.0, 0, 0], (1, 0, 0), np.array([255, 0, 0], np.uint8)):
+        assert np.array_equal(cgt.show(x, 0.3, same, **like).pixels, red)
+    with pytest.raises(cgt.InvalidArgument, match="colors: 60 to 200: must be from 0 to 1"):
+        cgt.show(x, 0.3, [200, 60, 60], **like)
+    values = cgt.show(x[:3], 0.3, [1.0, 2, 3], **like).pixels
+    assert not np.array_equal(values, cgt.show(x[:3], 0.3, "red", **like).pixels)
