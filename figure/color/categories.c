@@ -168,7 +168,7 @@ void cgt_categories_look(categories *c, const expression *formula, const express
         if (show)
             cgt_expression_values(show, first, block, shown);
         for (uint32_t i = 0; i < block; i++)
-            if (!show || (shown[i] != 0.0 && !isnan(shown[i])))
+            if (!show || cgt_expression_holds(shown[i]))
                 look_at(c, values[i], &last);
     }
 }

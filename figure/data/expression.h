@@ -15,6 +15,7 @@
 #ifndef EXPRESSION_H
 #define EXPRESSION_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -45,5 +46,8 @@ const cgt_trajectory_column *cgt_expression_words(const expression *e, const cgt
 
 /* Values of the bound frame's spheres or vertices from `first` on. */
 void cgt_expression_values(const expression *e, uint32_t first, uint32_t count, double *values);
+
+/* Whether a value says yes: 0 and NaN do not. */
+static inline int cgt_expression_holds(double value) { return value != 0.0 && !isnan(value); }
 
 #endif

@@ -111,8 +111,7 @@ int cgt_label_rules_apply(const label_rules *rules, const particle_rules *drawn,
             cgt_expression_values(drawn->show, first, block, show);
         cgt_particle_radii(drawn, f, first, block, radius);
         for (uint32_t k = 0; k < block; k++)
-            if (which[k] != 0.0 && !isnan(which[k]) && radius[k] >= 0.0f &&
-                (!drawn->show || (show[k] != 0.0 && !isnan(show[k]))))
+            if (cgt_expression_holds(which[k]) && radius[k] >= 0.0f && (!drawn->show || cgt_expression_holds(show[k])))
                 add_label(rules, f, first + k, radius[k], labels);
     }
     return 0;

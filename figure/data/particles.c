@@ -87,7 +87,7 @@ static void select_block(particles *p, const particle_rules *r, const cgt_trajec
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t i = first + k;
         float *to = p->xyzr + 4 * (size_t)p->count;
-        if (r->show && (isnan(show[k]) || show[k] == 0.0))
+        if (r->show && !cgt_expression_holds(show[k]))
             continue;
         if (r->radius && !(radius[k] >= 0.0f))
             continue;

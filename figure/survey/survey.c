@@ -42,7 +42,7 @@ static const uint8_t *find_shown(const frame_sequence *sequence, uint32_t first,
         return NULL;
     cgt_expression_values(show, first, count, values);
     for (uint32_t i = 0; i < count; i++)
-        shown[i] = values[i] != 0.0 && !isnan(values[i]);
+        shown[i] = (uint8_t)cgt_expression_holds(values[i]);
     return shown;
 }
 
