@@ -248,30 +248,10 @@ static int change_picture(cgt_figure *figure, figure_options *next)
     return cgt_figure_open_picture(figure);
 }
 
-/* Ends all that was made by options, but neither survey nor path. */
-static void unmake(cgt_figure *figure)
-{
-    cgt_figure_close_picture(figure);
-    cgt_figure_bounce_release(figure->bounce);
-    cgt_scene_release(figure->scene);
-    cgt_coloring_free(&figure->coloring);
-    cgt_figure_scene_close(figure);
-    cgt_frame_sequence_close(&figure->sequence);
-    cgt_expression_free(figure->formula);
-    cgt_camera_keys_free(&figure->options.keys);
-    memset(&figure->coloring, 0, sizeof figure->coloring);
-    memset(&figure->parts, 0, sizeof figure->parts);
-    figure->bounce = NULL;
-    figure->scene = NULL;
-    figure->formula = NULL;
-    figure->frame = NULL;
-    figure->has_geometry = figure->has_bonds_told = figure->is_open = 0;
-}
-
 /* Makes all anew, from the shown frame where it was not found before. */
 static int change_all(cgt_figure *figure, figure_options *next, const figure_found *was)
 {
-    unmake(figure);
+    cgt_figure_unmake(figure);
     if (!was->keeps_colors)
         cgt_categories_free(&figure->categories);
     figure->options = *next;

@@ -445,7 +445,7 @@ int cgt_figure_settle(cgt_figure *figure)
     return cgt_figure_make_scene(figure);
 }
 
-void cgt_figure_close(cgt_figure *figure)
+void cgt_figure_unmake(cgt_figure *figure)
 {
     cgt_figure_close_picture(figure);
     cgt_figure_bounce_release(figure->bounce);
@@ -454,7 +454,19 @@ void cgt_figure_close(cgt_figure *figure)
     cgt_figure_scene_close(figure);
     cgt_frame_sequence_close(&figure->sequence);
     cgt_expression_free(figure->formula);
-    cgt_categories_free(&figure->categories);
     cgt_camera_keys_free(&figure->options.keys);
+    memset(&figure->coloring, 0, sizeof figure->coloring);
+    memset(&figure->parts, 0, sizeof figure->parts);
+    figure->bounce = NULL;
+    figure->scene = NULL;
+    figure->formula = NULL;
+    figure->frame = NULL;
+    figure->has_geometry = figure->has_bonds_told = figure->is_open = 0;
+}
+
+void cgt_figure_close(cgt_figure *figure)
+{
+    cgt_figure_unmake(figure);
+    cgt_categories_free(&figure->categories);
     cgt_notices_free(&figure->notices);
 }

@@ -203,6 +203,9 @@ void cgt_figure_camera_at(const cgt_figure *figure, uint64_t number, cgt_camera 
 enum { FIGURE_CAMERA_SIZE = 256 }; /* ten numbers of at most 24 letters */
 void cgt_figure_name_camera(const cgt_figure *figure, const cgt_camera *camera, char text[FIGURE_CAMERA_SIZE]);
 
+/* Ends all that was made by options, but neither survey nor path. */
+void cgt_figure_unmake(cgt_figure *figure);
+
 /* Frees all but context and options' texts, also after a failure. */
 void cgt_figure_close(cgt_figure *figure);
 
