@@ -209,17 +209,23 @@ TEST(frames_of_every_kind)
     }
 }
 
+/* As many capsules as there may be, and nothing else. */
+static dual_scene commit_most(place_capsule *place, uint64_t seed)
+{
+    static capsule_scene s;
+    test_random r = random_make(seed);
+    s = (capsule_scene){.capsules = MOST, .scale = 1};
+    for (uint32_t i = 0; i < MOST; i++)
+        place(&s, &r, i, s.capsule[i]);
+    return commit_scene(&s, 0);
+}
+
 /* Windows and occlusion work, far fewer tests than capsules and rays; and single precision decides nearly all. */
 TEST(frame_of_many_tiles)
 {
-    static capsule_scene s;
-    test_random r = random_make(920);
     frames_tally tally = {0};
     cgt_camera camera;
-    s = (capsule_scene){.capsules = MOST, .scale = 1};
-    for (uint32_t i = 0; i < MOST; i++)
-        place_bond(&s, &r, i, s.capsule[i]);
-    dual_scene b = commit_scene(&s, 0);
+    dual_scene b = commit_most(place_bond, 920);
     cgt_camera_init(&camera);
     camera.eye[2] = 4;
     compare_frame(&b, &camera, 200, 130, "many tiles", &tally);
@@ -235,14 +241,9 @@ TEST(frame_of_many_tiles)
 /* Each of a crowd is nearer than those before it: brought to the front, the nearest spares most others a decision. */
 TEST(crowds_begin_with_the_nearest)
 {
-    static capsule_scene s;
-    test_random r = random_make(925);
     frames_tally tally = {0};
     cgt_camera camera;
-    s = (capsule_scene){.capsules = MOST, .scale = 1};
-    for (uint32_t i = 0; i < MOST; i++)
-        place_coaxial(&s, &r, i, s.capsule[i]);
-    dual_scene b = commit_scene(&s, 0);
+    dual_scene b = commit_most(place_coaxial, 925);
     cgt_camera_init(&camera);
     camera.eye[2] = 3;
     camera.fov = 40;

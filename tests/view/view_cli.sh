@@ -21,6 +21,20 @@ view() {
     run "$wanted" $size --script script "$@"
 }
 
+# color_by_last ARGUMENT...: chooses the last of the file's columns from the list of the key l, and writes the picture.
+color_by_last() {
+    view 0 "$@" <<'END'
+settle
+key l
+key Up
+key Up
+key Return
+settle
+key s
+settle
+END
+}
+
 # same FILE: the printed command line of cgt-render, under another name, makes the bytes of FILE.
 same() {
     grep '^cgt-render ' "$tmp/stdout" | tail -n 1 |
@@ -154,32 +168,14 @@ says out '--show='
 awk 'BEGIN { print 300; print "Properties=species:S:1:pos:R:3:q:R:1"
     for (i = 0; i < 300; i++) print "C", i % 20, int(i / 20), 0, i == 7 ? 1e6 : i }' >"$tmp/far.xyz"
 rm -f "$tmp"/view_*
-view 0 --style plain far.xyz <<'END'
-settle
-key l
-key Up
-key Up
-key Return
-settle
-key s
-settle
-END
+color_by_last --style plain far.xyz
 same view_0000.png
 says out '--color=q --range=[0-9],29[0-9] '
 # Words have the colours that they have in cgt-render, with a legend; numbers and what is seen through, too.
 awk 'BEGIN { print 60; print "Properties=species:S:1:pos:R:3:part:S:1"
     for (i = 0; i < 60; i++) print "C", i % 10, int(i / 10), i % 3, substr("hbx", int(i / 20) + 1, 1) }' >"$tmp/parts.xyz"
 rm -f "$tmp"/view_*
-view 0 --style plain parts.xyz --colorbar --opacity 'part == b=0.4' <<'END'
-settle
-key l
-key Up
-key Up
-key Return
-settle
-key s
-settle
-END
+color_by_last --style plain parts.xyz --colorbar --opacity 'part == b=0.4'
 same view_0000.png
 says out '--color=part '
 rm -f "$tmp"/view_*
