@@ -189,6 +189,29 @@ typedef struct ray_lanes {
     vfloat org[3], dir[3], t_min, t_max;
 } ray_lanes;
 
+/* Elements i to i + count - 1 of an array; 0 beyond. */
+CGT_SPU_INLINE vfloat ray_load_elements(const float *array, size_t stride, uint64_t i, uint32_t count)
+{
+    _Alignas(CGT_VECTOR_BYTES) float row[CGT_LANES];
+    if (stride == sizeof(float))
+        return count == CGT_LANES ? spux_load_unaligned(array + i) : spux_load_mask(array + i, spux_mask_first(count));
+    for (uint32_t k = 0; k < CGT_LANES; k++)
+        row[k] = k < count ? ray_element(array, stride, i + k) : 0;
+    return spux_load(row);
+}
+
+/* Rays i to i + count - 1 of arrays that are not towards a light. */
+CGT_SPU_INLINE void ray_lanes_load(const ray_source *s, uint64_t i, uint32_t count, ray_lanes *q)
+{
+    const cgt_rays *r = s->rays;
+    for (int a = 0; a < 3; a++) {
+        q->org[a] = ray_load_elements(r->org[a], s->vector_stride, i, count);
+        q->dir[a] = ray_load_elements(r->dir[a], s->vector_stride, i, count);
+    }
+    q->t_min = r->t_min ? ray_load_elements(r->t_min, s->stride, i, count) : spux_vfloat(0);
+    q->t_max = r->t_max ? ray_load_elements(r->t_max, s->stride, i, count) : spux_vfloat(INFINITY);
+}
+
 /* ray_direction towards a light */
 CGT_SPU_INLINE vfloat ray_direction_lanes(const cgt_light *light, bool is_point, int a, vfloat o)
 {

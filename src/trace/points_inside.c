@@ -10,8 +10,8 @@
 #include "query/ray_intake.h"
 #include "trace/hit_lists.h"
 
-#define LISTS 16u                  /* that are filled together */
-#define LIST_HITS 64u              /* of a ray at a time */
+#define LISTS 512u                 /* that are filled together */
+#define LIST_HITS 16u              /* of a ray at a time */
 #define WINDOW (UINT32_C(1) << 16) /* geometries whose sums a ray fills; more take more rays */
 
 static const cgt_inside_options default_inside;

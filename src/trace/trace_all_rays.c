@@ -10,9 +10,9 @@
 #include "scene/scene.h"
 #include "trace/hit_lists.h"
 
-#define LIST_HITS 64u    /* of a ray at a time */
-#define LIST_MEMORY 512u /* hits of all lists that are filled together */
-#define MOST_LISTS 64u
+#define LIST_HITS 64u     /* of a ray at a time */
+#define LIST_MEMORY 6144u /* hits of all lists that are filled together */
+#define MOST_LISTS 1024u
 #define BATCH 256u /* hits whose values are computed together */
 
 static const cgt_all_hits_options default_all;

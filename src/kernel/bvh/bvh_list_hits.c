@@ -5,23 +5,12 @@
  * a full list ends the ray. What tests find for certain, in the range and after `after`, is listed by its interval;
  * what they leave open is decided.
  *
- * Alone a ray waits for memory half of its time. So some rays take turns, a node or a leaf each, and each prefetches
- * what it needs at its next turn. */
-#include "kernel/bvh/bvh_single.h"
-#include "query/hit_list.h"
+ * Neighbours go in streams (kernel/stream/stream_lists.h). Of others each alone would wait for memory half of its time:
+ * some take turns, a node or a leaf each, and each prefetches what it needs at its next turn. */
+#include "kernel/bvh/bvh_list.h"
 
-#define LIST_RAYS 4u /* that take turns: enough to hide memory, few enough for the buffers of its lines */
-
-typedef struct list_query {
-    const bvh_call *call;
-    cgt_hit_list *list;
-    bvh_ray ray; /* `near` and `far` as the list allows */
-    bvh_leaf_ray leaf;
-    float first, last; /* hits whose intervals are between them are certainly in the range and after `after` */
-    bvh_slabs slabs;
-    uint32_t code; /* of the next node or leaf; CGT_BVH_NO_CHILD: there is none */
-    bvh_stack stack;
-} list_query;
+#define LIST_RAYS 4u         /* that take turns: enough to hide memory, few enough for the buffers of its lines */
+#define LIST_STREAM_RAYS 32u /* fewer are no stream */
 
 /* The roots of one side of a leaf's primitives, in the lanes of `possible`; those of `certain` are in [low, high]. */
 typedef struct list_roots {
@@ -153,35 +142,25 @@ static void list_step(list_query *q)
     q->code = code == CGT_BVH_NO_CHILD ? bvh_single_pop(&q->stack, q->ray.far, false) : code;
 }
 
+void CGT_KERNEL(cgt_list_finish)(list_query *q)
+{
+    while (q->code != CGT_BVH_NO_CHILD)
+        list_step(q);
+}
+
 /* Normalises the ray, so that T is its T. */
 static void list_begin(list_query *q)
 {
-    const cgt_ray *ray = q->list->ray;
-    float longest = 0;
-    int exponent;
-    for (int a = 0; a < 3; a++)
-        longest = fabsf(ray->line.dir[a]) > longest ? fabsf(ray->line.dir[a]) : longest;
-    frexpf(longest, &exponent); /* 2^exponent is twice 2^k */
-    cgt_hit_list_set_units(q->list, ldexp((double)q->call->scale, exponent - 1), 0);
-    bvh_ray_normalise(q->call, ray, 0, &q->ray);
-    q->first = q->ray.near + fabsf(q->ray.near) * 0x1p-18f + q->call->range_error[0];
-    q->last = q->ray.best.low;
-    if (q->list->has_after) {
-        const cgt_listed_hit *after = &q->list->after;
-        q->first = after->high > q->first ? after->high : q->first;
-        q->ray.near = after->low > q->ray.near ? after->low : q->ray.near;
-    }
-    bvh_leaf_ray_init(q->call, &q->ray, &q->leaf);
-    bvh_slabs_init(&q->ray, &q->slabs);
-    q->stack.top = 0;
-    q->code = q->ray.near <= q->ray.far ? 0 : CGT_BVH_NO_CHILD;
+    list_set_units(q->list, q->call->scale);
+    bvh_ray_normalise(q->call, q->list->ray, 0, &q->ray);
+    list_start(q, 0);
 }
 
 /* The lists of a call. */
 typedef struct list_call {
     bvh_call bvh;
     ray_limits limits;
-    cgt_hit_list *list;
+    cgt_hit_list *const *list;
     uint32_t count, next; /* the first that has not begun */
 } list_call;
 
@@ -189,7 +168,7 @@ typedef struct list_call {
 static bool list_next(list_call *c, list_query *q)
 {
     while (c->next < c->count) {
-        cgt_hit_list *list = &c->list[c->next++];
+        cgt_hit_list *list = c->list[c->next++];
         if (ray_classify(list->ray, &c->limits) == RAY_UNUSUAL) {
             CGT_KERNEL(cgt_list_unusual)(c->bvh.committed_scene, true, list, 1, c->bvh.counts);
             continue;
@@ -203,19 +182,12 @@ static bool list_next(list_call *c, list_query *q)
     return false;
 }
 
-void CGT_KERNEL(cgt_list_hits)(const cgt_committed_scene *committed_scene, bool use_bvh, cgt_hit_list *lists,
-                               uint32_t count, cgt_counts *counts)
+void CGT_KERNEL(cgt_list_turns)(const cgt_committed_scene *committed_scene, cgt_hit_list *const *lists, uint32_t count,
+                                cgt_counts *counts)
 {
     list_call c = {.list = lists, .count = count};
     list_query *turn[LIST_RAYS];
     uint32_t rays = 0;
-    if (!committed_scene->valid)
-        return;
-    counts->bvh_rays += use_bvh ? count : 0;
-    if (!use_bvh || committed_scene->brute_force) { /* another thread may be building the tree */
-        CGT_KERNEL(cgt_list_unusual)(committed_scene, use_bvh, lists, count, counts);
-        return;
-    }
     bvh_call_init(committed_scene, counts, &c.bvh);
     c.bvh.skips_prims = true;
     c.limits = bvh_ray_limits(c.bvh.scale);
@@ -233,4 +205,33 @@ void CGT_KERNEL(cgt_list_hits)(const cgt_committed_scene *committed_scene, bool 
                 turn[k] = turn[--rays];
         }
     cgt_scratch_return(counts->scratch, q);
+}
+
+/* Streams are for hits from a ray's begin on. */
+void CGT_KERNEL(cgt_list_hits)(const cgt_committed_scene *committed_scene, bool use_bvh, cgt_hit_list *lists,
+                               uint32_t count, cgt_counts *counts)
+{
+    if (!committed_scene->valid)
+        return;
+    counts->bvh_rays += use_bvh ? count : 0;
+    if (!use_bvh || committed_scene->brute_force) { /* another thread may be building the tree */
+        CGT_KERNEL(cgt_list_unusual)(committed_scene, use_bvh, lists, count, counts);
+        return;
+    }
+    cgt_hit_list **to = cgt_scratch_take(counts->scratch, (count < LIST_CHUNK ? count : LIST_CHUNK) * sizeof *to);
+    for (uint32_t i = 0; i < count;) {
+        const uint32_t room = count - i < LIST_CHUNK ? count - i : LIST_CHUNK;
+        uint32_t fresh = 0, others = room;
+        for (; fresh < others; i++)
+            if (lists[i].has_after || lists[i].kind == CGT_LIST_CONTAINERS)
+                to[--others] = &lists[i];
+            else
+                to[fresh++] = &lists[i];
+        if (fresh >= LIST_STREAM_RAYS)
+            CGT_KERNEL(cgt_list_streams)(committed_scene, to, fresh, counts);
+        else
+            CGT_KERNEL(cgt_list_turns)(committed_scene, to, fresh, counts);
+        CGT_KERNEL(cgt_list_turns)(committed_scene, to + others, room - others, counts);
+    }
+    cgt_scratch_return(counts->scratch, to);
 }

@@ -181,6 +181,38 @@ __attribute__((unused)) static bool ray_packet_init(const cgt_committed_scene *c
 
 /* ---- hits ---- */
 
+/* Rays first to first + count - 1 of the arrays with the primitives that they hit, ready for the values of the hits.
+ * Rays without a hit may hold anything: harmless ones replace them. */
+__attribute__((unused)) static void ray_packet_of_hits(const ray_source *s, uint64_t first, uint32_t count,
+                                                       const uint32_t *prim, packet *p)
+{
+    p->rays = p->lanes = (count + CGT_LANES - 1) / CGT_LANES * CGT_LANES;
+    p->common_origin = p->from_origin = p->to_light = p->any_hit = p->fast = p->extreme = false;
+    p->skips_prims = p->has_masks = false;
+    p->triangle_test = CGT_TRIANGLE_TEST_AUTO;
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
+        const uint32_t remaining = count - i;
+        ray_lanes q;
+        _Alignas(CGT_VECTOR_BYTES) uint32_t known[CGT_LANES];
+        ray_lanes_load(s, first + i, remaining < CGT_LANES ? remaining : CGT_LANES, &q);
+        for (uint32_t k = 0; k < CGT_LANES; k++)
+            known[k] = k < remaining ? prim[i + k] : CGT_INVALID_ID;
+        const vuint hit = spux_load_uint(known);
+        const vmask none = spu_cmpeq(hit, spux_vuint(CGT_INVALID_ID));
+        vfloat dd = spux_vfloat(0);
+        for (int a = 0; a < 3; a++) {
+            const vfloat d = spux_select(q.dir[a], spux_vfloat(1), none);
+            spux_store(p->org[a] + i, spux_select(q.org[a], spux_vfloat(0), none));
+            spux_store(p->dir[a] + i, d);
+            dd = spu_add(dd, spu_mul(d, d));
+        }
+        spux_store(p->rdd + i, spux_div(spux_vfloat(1), dd));
+        spux_store(p->t_min + i, spux_max(spux_select(q.t_min, spux_vfloat(0), none), spux_vfloat(-FLT_MAX)));
+        spux_store(p->t_max + i, q.t_max);
+        spux_store_uint(p->prim + i, hit);
+    }
+}
+
 /* Stores a packet's hits in the caller's arrays. */
 CGT_SPU_INLINE void ray_store_hits(const packet_hits *h, const ray_order *order, uint32_t first, uint32_t count,
                                    const cgt_hits *hits)

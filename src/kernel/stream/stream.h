@@ -60,6 +60,8 @@ typedef struct stream {
     float reach_low[3], reach_high[3]; /* no ray of the octant reaches what lies outside */
     uint32_t updates;  /* any hit: rays that have found theirs; nearest: how often a ray found another one */
     uint8_t *occluded; /* any hit: the caller's, all 0 at first */
+    /* NULL, or the list of each ray: the ends of ranges are those of lists, and the inner ones stay */
+    struct cgt_hit_list *const *list;
 } stream;
 
 CGT_SPU_INLINE float *stream_record(stream *s, uint32_t offset) { return &s->record[0][0] + offset; }
@@ -150,6 +152,10 @@ void CGT_KERNEL(cgt_stream_move_rays)(stream *s, uint32_t count, bool has_far, s
 void CGT_KERNEL(cgt_stream_trace_few)(stream *s, const uint32_t *list, uint32_t count, uint32_t code);
 void CGT_KERNEL(cgt_stream_trace_unusual)(stream *s, const uint32_t *list, uint32_t count);
 void CGT_KERNEL(cgt_stream_interleave)(stream *s, const uint32_t *list, uint32_t count);
+
+/* The same of rays with lists (stream_lists.c): those of a list through a subtree; and whole ones, which take turns. */
+void CGT_KERNEL(cgt_stream_list_few)(stream *s, const uint32_t *list, uint32_t count, uint32_t code);
+void CGT_KERNEL(cgt_stream_list_turns)(stream *s, const uint32_t *list, uint32_t count);
 
 /* Resolves the best hits of all `count` rays and stores them in the caller's arrays. */
 void CGT_KERNEL(cgt_stream_store_hits)(stream *s, uint32_t count, const cgt_trace_settings *settings,

@@ -12,7 +12,7 @@
 #define CGT_STREAM_CAPSULES_H
 
 #include "kernel/primitive/lane_capsules.h"
-#include "kernel/stream/stream_leaf.h"
+#include "kernel/stream/stream_lists.h"
 
 /* Those that the octant's rays may reach. Bounds are moved outwards by more than their roundings. */
 CGT_SPU_INLINE unsigned leaf_reachable_capsules(const stream *s, const capsule_block *leaf)
@@ -94,7 +94,7 @@ CGT_SPU_INLINE bool leaf_capsule_test(const leaf_rays *r, const lane_rays *ray, 
 
 CGT_SPU_INLINE void leaf_capsules_closest(stream *s, const capsule_block *leaf, const leaf_strips *x,
                                           const leaf_candidates *m, const leaf_box *box, const uint32_t *list,
-                                          uint32_t rays, bool skips_prims)
+                                          uint32_t rays, bool skips_prims, bool lists)
 {
     for (uint32_t i = 0; i < rays; i += CGT_LANES) {
         leaf_rays r;
@@ -110,10 +110,18 @@ CGT_SPU_INLINE void leaf_capsules_closest(stream *s, const capsule_block *leaf, 
             for (int e = 0; e < 2; e++)
                 for (int a = 0; a < 3; a++)
                     end[e][a] = spux_vfloat(leaf->end[e][a][k]);
-            if (leaf_capsule_test(&r, &ray, (const vfloat(*)[3])end, spux_vfloat(leaf->radius[k]), &f))
+            if (!leaf_capsule_test(&r, &ray, (const vfloat(*)[3])end, spux_vfloat(leaf->radius[k]), &f))
+                continue;
+            if (lists) { /* both roots are decided */
+                f.certain_hit = spux_mask_none();
+                leaf_list_hits(s, &r, &f, leaf->prim[k], CGT_BOTH_SIDES);
+            } else
                 leaf_update_hits(s, &r, &f, leaf->prim[k], false, skips_prims);
         }
-        leaf_rays_store(s, &r, false);
+        if (lists)
+            leaf_list_store(s, &r);
+        else
+            leaf_rays_store(s, &r, false);
     }
 }
 
@@ -210,7 +218,7 @@ CGT_SPU_INLINE void leaf_capsules_any(stream *s, const capsule_block *leaf, cons
 __attribute__((noinline, unused)) static void leaf_stream_capsules(stream *s, const capsule_block *leaf,
                                                                    const leaf_candidates *m, const leaf_box *box,
                                                                    const uint32_t *list, uint32_t rays, bool any_hit,
-                                                                   bool skips_prims)
+                                                                   bool skips_prims, bool lists)
 {
     leaf_strips x;
     leaf_strips_init(leaf, &x);
@@ -219,10 +227,12 @@ __attribute__((noinline, unused)) static void leaf_stream_capsules(stream *s, co
         leaf_capsules_any(s, leaf, &x, m, box, list, rays, true);
     else if (any_hit)
         leaf_capsules_any(s, leaf, &x, m, box, list, rays, false);
+    else if (lists)
+        leaf_capsules_closest(s, leaf, &x, m, box, list, rays, false, true);
     else if (skips_prims)
-        leaf_capsules_closest(s, leaf, &x, m, box, list, rays, true);
+        leaf_capsules_closest(s, leaf, &x, m, box, list, rays, true, false);
     else
-        leaf_capsules_closest(s, leaf, &x, m, box, list, rays, false);
+        leaf_capsules_closest(s, leaf, &x, m, box, list, rays, false, false);
 }
 
 #endif

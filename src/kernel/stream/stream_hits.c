@@ -2,41 +2,12 @@
  * SPDX-License-Identifier: MIT
  *
  * The closest hits of a stream, resolved packet by packet, to the caller's arrays. */
+#include "kernel/packet/ray_packet.h"
 #include "kernel/stream/stream.h"
 #include "kernel/stream/stream_read.h"
 
 /* Hits among fewer primitives are mostly in a cache: prefetching them costs a tenth of the whole call. */
 #define PREFETCH_MIN_PRIMS 131072u
-
-/* Fills a packet with rays and their closest hits, ready to be resolved. */
-static void make_hit_packet(const stream *s, uint32_t first, uint32_t count, packet *p)
-{
-    p->lanes = (count + CGT_LANES - 1) / CGT_LANES * CGT_LANES;
-    p->rays = p->lanes;
-    p->common_origin = p->from_origin = p->to_light = p->any_hit = p->fast = p->extreme = false;
-    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
-        const uint32_t remaining = count - i;
-        ray_lanes q;
-        stream_lanes_load(&s->call, first + i, remaining < CGT_LANES ? remaining : CGT_LANES, &q);
-        _Alignas(CGT_VECTOR_BYTES) uint32_t prim[CGT_LANES];
-        for (uint32_t k = 0; k < CGT_LANES; k++)
-            prim[k] = k < remaining ? s->best[first + i + k].prim : CGT_INVALID_ID;
-        const vuint best_prim = spux_load_uint(prim);
-        /* rays without a hit may hold anything: harmless ones replace them */
-        const vmask none = spu_cmpeq(best_prim, spux_vuint(CGT_INVALID_ID));
-        vfloat dd = spux_vfloat(0);
-        for (int a = 0; a < 3; a++) {
-            const vfloat d = spux_select(q.dir[a], spux_vfloat(1), none);
-            spux_store(p->org[a] + i, spux_select(q.org[a], spux_vfloat(0), none));
-            spux_store(p->dir[a] + i, d);
-            dd = spu_add(dd, spu_mul(d, d));
-        }
-        spux_store(p->rdd + i, spux_div(spux_vfloat(1), dd));
-        spux_store(p->t_min + i, spux_max(spux_select(q.t_min, spux_vfloat(0), none), spux_vfloat(-FLT_MAX)));
-        spux_store(p->t_max + i, q.t_max);
-        spux_store_uint(p->prim + i, best_prim);
-    }
-}
 
 /* Prefetches what the closest hits of `rays` rays from `first` on are read from: indices, or the
  * points of primitives whose indices have arrived. The hits of incoherent rays lie anywhere in memory. */
@@ -68,12 +39,15 @@ void CGT_KERNEL(cgt_stream_store_hits)(stream *s, uint32_t count, const cgt_trac
     packet_hits *h = cgt_scratch_take(scratch, sizeof *h);
     for (uint32_t i = 0; i < count; i += PACKET_MAX_RAYS) {
         const uint32_t rays = count - i < PACKET_MAX_RAYS ? count - i : PACKET_MAX_RAYS;
+        uint32_t prim[PACKET_MAX_RAYS];
         const ray_order order = {s->call.first, NULL};
         if (s->call.committed_scene->prims.count >= PREFETCH_MIN_PRIMS) {
             prefetch_hits(s, i + 2 * PACKET_MAX_RAYS, PACKET_MAX_RAYS, count, false);
             prefetch_hits(s, i + PACKET_MAX_RAYS, PACKET_MAX_RAYS, count, true);
         }
-        make_hit_packet(s, i, rays, p);
+        for (uint32_t k = 0; k < rays; k++)
+            prim[k] = s->best[i + k].prim;
+        ray_packet_of_hits(s->call.source, s->call.first + i, rays, prim, p);
         CGT_KERNEL(cgt_packet_resolve)(s->call.committed_scene, p, settings, h, s->call.counts);
         ray_store_hits(h, &order, i, rays, hits);
     }

@@ -8,29 +8,6 @@
 
 #include "kernel/stream/stream.h"
 
-/* Elements i to i + count - 1 of an array of the caller's, i counted from its beginning; `absent` beyond. */
-CGT_SPU_INLINE vfloat stream_load_array(const float *array, size_t stride, uint64_t i, uint32_t count)
-{
-    _Alignas(CGT_VECTOR_BYTES) float row[CGT_LANES];
-    if (stride == sizeof(float))
-        return count == CGT_LANES ? spux_load_unaligned(array + i) : spux_load_mask(array + i, spux_mask_first(count));
-    for (uint32_t k = 0; k < CGT_LANES; k++)
-        row[k] = k < count ? ray_element(array, stride, i + k) : 0;
-    return spux_load(row);
-}
-
-CGT_SPU_INLINE void stream_lanes_load(const bvh_call *c, uint32_t i, uint32_t count, ray_lanes *q)
-{
-    const ray_source *s = c->source;
-    const cgt_rays *r = s->rays;
-    for (int a = 0; a < 3; a++) {
-        q->org[a] = stream_load_array(r->org[a], s->vector_stride, c->first + i, count);
-        q->dir[a] = stream_load_array(r->dir[a], s->vector_stride, c->first + i, count);
-    }
-    q->t_min = r->t_min ? stream_load_array(r->t_min, s->stride, c->first + i, count) : spux_vfloat(0);
-    q->t_max = r->t_max ? stream_load_array(r->t_max, s->stride, c->first + i, count) : spux_vfloat(INFINITY);
-}
-
 /* 1 / d with components made large enough, see bvh_ray.h: estimates have 11 bits at least, and a Newton step
  * makes that 2^-21. */
 CGT_SPU_INLINE vfloat stream_reciprocal(vfloat d)
@@ -81,7 +58,7 @@ CGT_SPU_INLINE void stream_store_records(stream *s, uint32_t i, uint32_t count, 
     const bvh_call *c = &s->call;
     const vfloat scale = spux_vfloat(c->scale), margin = spux_vfloat(0x1p-20f);
     ray_lanes q;
-    stream_lanes_load(c, i, count, &q);
+    ray_lanes_load(c->source, c->first + i, count, &q);
     const vfloat longest = ray_largest(q.dir);
     const vuint exponent = spu_and((vuint)longest, spux_vuint(0x7f800000));
     const vfloat power = (vfloat)exponent, inverse = (vfloat)spu_sub(spux_vuint(0x7f000000), exponent);

@@ -8,6 +8,7 @@
  * leaf. The steps of one ray wait for each other, and its branches are mispredicted; steps of different rays overlap,
  * and the list that a ray joins next is chosen without a branch. Each ray has a small stack; a ray that needs more is
  * traced to its end alone. */
+#include "kernel/bvh/bvh_list.h"
 #include "kernel/stream/stream.h"
 
 /* ---- one after the other ---- */
@@ -233,4 +234,33 @@ void CGT_KERNEL(cgt_stream_interleave)(stream *s, const uint32_t *list, uint32_t
         interleave_any(s, list, count);
     else
         interleave_closest(s, list, count);
+}
+
+/* ---- lists of hits ---- */
+
+void CGT_KERNEL(cgt_stream_list_few)(stream *s, const uint32_t *list, uint32_t count, uint32_t code)
+{
+    list_query q;
+    q.call = &s->call;
+    for (uint32_t i = 0; i < count; i++) {
+        float *const d = stream_record(s, list[i]);
+        q.list = s->list[list[i] / STREAM_RECORD];
+        stream_ray_load(s, list[i], false, &q.ray);
+        bvh_ray_set_slabs(&s->call, d + RECORD_RDIR, s->slab_error, &q.ray);
+        list_start(&q, code);
+        CGT_KERNEL(cgt_list_finish)(&q);
+        if (q.ray.far == d[RECORD_FAR])
+            continue;
+        s->best[list[i] / STREAM_RECORD].high = d[RECORD_FAR] = d[RECORD_LEAF_FAR] = q.ray.far;
+        s->updates++;
+    }
+}
+
+void CGT_KERNEL(cgt_stream_list_turns)(stream *s, const uint32_t *list, uint32_t count)
+{
+    cgt_hit_list **to = cgt_scratch_take(s->call.counts->scratch, count * sizeof *to);
+    for (uint32_t i = 0; i < count; i++)
+        to[i] = s->list[list[i] / STREAM_RECORD];
+    CGT_KERNEL(cgt_list_turns)(s->call.committed_scene, to, count, s->call.counts);
+    cgt_scratch_return(s->call.counts->scratch, to);
 }

@@ -40,7 +40,7 @@
 #define CGT_STREAM_SPHERES_H
 
 #include "kernel/primitive/lane_vectors.h"
-#include "kernel/stream/stream_leaf.h"
+#include "kernel/stream/stream_lists.h"
 
 #define LEAF_LEAST_HALF 0.93f
 #define LEAF_CROWD 5 /* times the largest radius: leaves below this many hold spheres that overlap. Measured. */
@@ -75,27 +75,44 @@ CGT_SPU_INLINE void leaf_sphere_bounds_init(const leaf_rays *r, float scale, flo
     b->t_width = spu_madd(b->t_error, spux_vfloat(2), spu_mul(spux_sqrt(b->eps), spux_vfloat(0.27f)));
 }
 
+/* The part of the lines that a sphere holds. */
+typedef struct leaf_sphere_chord {
+    vfloat mid, half; /* t, less and plus half */
+    vfloat depth;     /* h */
+    vmask met;        /* not missed, nor passed before the range */
+} leaf_sphere_chord;
+
+CGT_SPU_INLINE leaf_sphere_chord leaf_compute_chord(const leaf_rays *r, const leaf_sphere_bounds *b,
+                                                    const sphere_block *leaf, uint32_t k, float square)
+{
+    const vfloat zero = spux_vfloat(0);
+    leaf_sphere_chord q;
+    vfloat c[3], l[3];
+    for (int a = 0; a < 3; a++)
+        c[a] = spu_msub(spux_vfloat(leaf->center[a][k]), b->scale, r->org[a]);
+    q.mid = spu_mul(lane_dot(r->dir, c), b->rdd);
+    for (int a = 0; a < 3; a++)
+        l[a] = spu_nmsub(q.mid, r->dir[a], c[a]);
+    q.depth = spu_sub(spu_add(spux_vfloat(square), b->eps), lane_dot(l, l));
+    q.half = spux_sqrt(spu_mul(spux_max(q.depth, zero), b->rdd));
+    q.met = spu_and(spux_cmpge(q.depth, zero), spux_cmpge(spu_add(q.mid, q.half), b->behind));
+    return q;
+}
+
 /* second: looks at second roots, too. */
 CGT_SPU_INLINE void leaf_sphere_roots(const leaf_rays *r, const leaf_sphere_bounds *b, const sphere_block *leaf,
                                       uint32_t k, float square, bool any_hit, bool second, leaf_result *f)
 {
-    vfloat c[3], l[3];
-    for (int a = 0; a < 3; a++)
-        c[a] = spu_msub(spux_vfloat(leaf->center[a][k]), b->scale, r->org[a]);
-    const vfloat mid = spu_mul(lane_dot(r->dir, c), b->rdd), zero = spux_vfloat(0);
-    for (int a = 0; a < 3; a++)
-        l[a] = spu_nmsub(mid, r->dir[a], c[a]);
-    const vfloat h = spu_sub(spu_add(spux_vfloat(square), b->eps), lane_dot(l, l));
-    const vfloat half = spux_sqrt(spu_mul(spux_max(h, zero), b->rdd));
-    const vmask line_hits = spu_and(spux_cmpge(h, zero), spux_cmpge(spu_add(mid, half), b->behind));
-    const vmask above_certain = spu_cmpgt(h, b->certain_hit);
+    const leaf_sphere_chord q = leaf_compute_chord(r, b, leaf, k, square);
+    const vfloat mid = q.mid, half = q.half;
+    const vmask above_certain = spu_cmpgt(q.depth, b->certain_hit);
     if (any_hit) {
         const vfloat low = spu_sub(mid, half);
-        f->possible = spu_and(line_hits, spux_cmpge(b->last_out, low));
+        f->possible = spu_and(q.met, spux_cmpge(b->last_out, low));
         f->certain_hit = spu_and(above_certain, spu_and(spu_cmpgt(low, b->first_in), spu_cmpgt(b->last_in, mid)));
         if (second) {
             const vfloat least = spu_madd(half, spux_vfloat(LEAF_LEAST_HALF), mid), most = spu_add(mid, half);
-            const vmask two_roots = spu_cmpgt(h, spu_mul(b->certain_hit, spux_vfloat(8.5f)));
+            const vmask two_roots = spu_cmpgt(q.depth, spu_mul(b->certain_hit, spux_vfloat(8.5f)));
             f->certain_hit =
                 spu_or(f->certain_hit,
                        spu_and(two_roots, spu_and(spu_cmpgt(least, b->first_in), spu_cmpgt(b->last_in, most))));
@@ -104,7 +121,7 @@ CGT_SPU_INLINE void leaf_sphere_roots(const leaf_rays *r, const leaf_sphere_boun
     }
     f->low = spu_sub(spu_sub(mid, half), b->t_error);
     f->high = spu_add(f->low, b->t_width);
-    f->possible = spu_and(line_hits, spux_cmpge(r->far, f->low));
+    f->possible = spu_and(q.met, spux_cmpge(r->far, f->low));
     f->certain_hit = spu_and(above_certain, spu_and(spu_cmpgt(f->low, r->near_in), spu_cmpgt(r->far_in, f->high)));
     if (second) {
         const vmask undecided = spu_andc(f->possible, f->certain_hit);
@@ -115,6 +132,29 @@ CGT_SPU_INLINE void leaf_sphere_roots(const leaf_rays *r, const leaf_sphere_boun
         f->certain_hit = spu_or(f->certain_hit, spu_and(later, counts));
         f->possible = spu_andc(f->possible, spu_and(later, spu_cmpgt(f->low, r->far)));
     }
+}
+
+/* Lists both roots, or decides where the line may only touch. */
+CGT_SPU_INLINE void leaf_sphere_list(stream *s, leaf_rays *r, const leaf_sphere_bounds *b, const sphere_block *leaf,
+                                     uint32_t k, float square)
+{
+    const leaf_sphere_chord q = leaf_compute_chord(r, b, leaf, k, square);
+    const vmask two_roots = spu_and(q.met, spu_cmpgt(q.depth, b->certain_hit));
+    const vfloat end = spu_add(spu_add(q.mid, q.half), b->t_error);
+    leaf_result f;
+    f.low = spu_sub(spu_sub(q.mid, q.half), b->t_error);
+    f.high = end;
+    f.possible = spu_andc(q.met, two_roots);
+    f.certain_hit = spux_mask_none();
+    leaf_list_hits(s, r, &f, leaf->prim[k], CGT_BOTH_SIDES);
+    f.high = spu_add(f.low, b->t_width);
+    f.possible = spu_and(two_roots, spux_cmpge(f.high, r->near));
+    f.certain_hit = f.possible;
+    leaf_list_hits(s, r, &f, leaf->prim[k], CGT_NEAR_SIDE);
+    f.low = spu_sub(end, b->t_width);
+    f.high = end;
+    f.possible = f.certain_hit = two_roots;
+    leaf_list_hits(s, r, &f, leaf->prim[k], CGT_FAR_SIDE);
 }
 
 /* Lanes that the first root leaves undecided: by the second one, then exactly. */
@@ -309,7 +349,7 @@ CGT_SPU_INLINE uint32_t leaf_spheres_any(leaf_rays *r, const leaf_foot *n, const
 
 CGT_SPU_INLINE void leaf_stream_spheres(stream *s, const sphere_block *leaf, const leaf_candidates *m,
                                         const leaf_box *box, const uint32_t *list, uint32_t rays, bool any_hit,
-                                        bool skips_prims)
+                                        bool skips_prims, bool lists)
 {
     const float scale = s->call.scale;
     const bool unbounded = s->unbounded, masked = skips_prims && s->call.mask;
@@ -342,10 +382,16 @@ CGT_SPU_INLINE void leaf_stream_spheres(stream *s, const sphere_block *leaf, con
             leaf_sphere_bounds_init(&r, scale, q.most, spux_div(spux_vfloat(1), n.dd), any_hit, &b);
             for (; reached; reached &= reached - 1) {
                 const uint32_t k = (uint32_t)__builtin_ctz(reached);
-                leaf_sphere_test(s, &r, &b, leaf, k, q.square[k], any_hit, skips_prims);
+                if (lists)
+                    leaf_sphere_list(s, &r, &b, leaf, k, q.square[k]);
+                else
+                    leaf_sphere_test(s, &r, &b, leaf, k, q.square[k], any_hit, skips_prims);
             }
         }
-        leaf_rays_store(s, &r, any_hit);
+        if (lists)
+            leaf_list_store(s, &r);
+        else
+            leaf_rays_store(s, &r, any_hit);
     }
 }
 

@@ -7,12 +7,14 @@
  * a mask for each. Before that, children and primitives are culled that lie behind the origins or beyond the ends of
  * all the octant's rays. A child's list is made from the masks when its turn comes, so that there is one list for each
  * node on the way down. Where few rays are left, lanes are children or primitives instead (bvh_single.h), and so they
- * are from the root on in a call of few incoherent rays (stream_single.c).
+ * are from the root on in a call of few incoherent rays (stream_single.c). Rays with lists of hits (stream_lists.h) end
+ * where their lists do.
  *
  * Lists lie in an arena, which the rays of a deep tree could fill. A node whose masks and largest list do not fit takes
  * its list in pieces, each through the node's whole subtree before the next. There is always room for a piece of one
  * vector: a level takes at most STREAM_MIN_WORDS words for that, there are at most CGT_BVH_MAX_DEPTH levels, the arena
  * is at least that many times as large, and a node leaves as much for each level below it. */
+#include "kernel/bvh/bvh_list.h"
 #include "kernel/stream/stream_capsules.h"
 #include "kernel/stream/stream_node.h"
 #include "kernel/stream/stream_read.h"
@@ -31,7 +33,7 @@ CGT_SPU_INLINE uint32_t stream_few(uint32_t code)
 /* ---- all rays of an octant ---- */
 
 CGT_SPU_INLINE void stream_leaf(stream *s, const bvh_node *n, uint32_t child, const uint32_t *list, uint32_t rays,
-                                bool any_hit, bool skips_prims)
+                                bool any_hit, bool skips_prims, bool lists)
 {
     const uint32_t code = n->child[child];
     const cgt_bvh_leaf leaf = cgt_bvh_find_leaf(s->call.tree, code);
@@ -40,6 +42,8 @@ CGT_SPU_INLINE void stream_leaf(stream *s, const bvh_node *n, uint32_t child, co
     const sphere_block *spheres = NULL; /* the blocks of other kinds may be NULL */
     const triangle_block *triangles = NULL;
     const capsule_block *capsules = NULL;
+    if (lists && leaf.kind == CGT_KIND_SPHERES && s->list[list[0] / STREAM_RECORD]->without_spheres)
+        return;
     if (leaf.kind == CGT_KIND_TRIANGLES)
         triangles = (const triangle_block *)tree->triangle + leaf.block;
     else if (leaf.kind == CGT_KIND_SPHERES)
@@ -57,14 +61,15 @@ CGT_SPU_INLINE void stream_leaf(stream *s, const bvh_node *n, uint32_t child, co
     if (!m.count)
         return;
     if (triangles)
-        leaf_stream_triangles(s, triangles, &m, &box, list, rays, any_hit, skips_prims);
+        leaf_stream_triangles(s, triangles, &m, &box, list, rays, any_hit, skips_prims, lists);
     else if (spheres)
-        leaf_stream_spheres(s, spheres, &m, &box, list, rays, any_hit, skips_prims);
+        leaf_stream_spheres(s, spheres, &m, &box, list, rays, any_hit, skips_prims, lists);
     else
-        leaf_stream_capsules(s, capsules, &m, &box, list, rays, any_hit, skips_prims);
+        leaf_stream_capsules(s, capsules, &m, &box, list, rays, any_hit, skips_prims, lists);
 }
 
-CGT_SPU_INLINE void stream_trace(stream *s, const uint32_t *list, uint32_t count, bool any_hit, bool skips_prims)
+CGT_SPU_INLINE void stream_trace(stream *s, const uint32_t *list, uint32_t count, bool any_hit, bool skips_prims,
+                                 bool lists)
 {
     stream_level level[CGT_BVH_MAX_DEPTH];
     uint32_t depth = 0;
@@ -96,9 +101,12 @@ CGT_SPU_INLINE void stream_trace(stream *s, const uint32_t *list, uint32_t count
             s->alone += rays;
         /* few rays singly, a leaf at once, a node one level down */
         if (rays <= stream_few(code)) {
-            CGT_KERNEL(cgt_stream_trace_few)(s, v->scratch, rays, code);
+            if (lists)
+                CGT_KERNEL(cgt_stream_list_few)(s, v->scratch, rays, code);
+            else
+                CGT_KERNEL(cgt_stream_trace_few)(s, v->scratch, rays, code);
         } else if (code & CGT_BVH_LEAF) {
-            stream_leaf(s, v->node, child, v->scratch, rays, any_hit, skips_prims);
+            stream_leaf(s, v->node, child, v->scratch, rays, any_hit, skips_prims, lists);
         } else {
             level[++depth] =
                 (stream_level){.node = (const bvh_node *)s->call.tree->node + code, .list = v->scratch, .count = rays};
@@ -110,20 +118,25 @@ CGT_SPU_INLINE void stream_trace(stream *s, const uint32_t *list, uint32_t count
 
 __attribute__((noinline)) static void stream_trace_any(stream *s, const uint32_t *list, uint32_t count)
 {
-    stream_trace(s, list, count, true, false);
+    stream_trace(s, list, count, true, false, false);
 }
 
 __attribute__((noinline)) static void stream_trace_closest(stream *s, const uint32_t *list, uint32_t count)
 {
-    stream_trace(s, list, count, false, false);
+    stream_trace(s, list, count, false, false, false);
+}
+
+__attribute__((noinline)) static void stream_trace_lists(stream *s, const uint32_t *list, uint32_t count)
+{
+    stream_trace(s, list, count, false, false, true);
 }
 
 __attribute__((noinline)) static void stream_trace_masked(stream *s, const uint32_t *list, uint32_t count)
 {
     if (s->call.any_hit)
-        stream_trace(s, list, count, true, true);
+        stream_trace(s, list, count, true, true, false);
     else
-        stream_trace(s, list, count, false, true);
+        stream_trace(s, list, count, false, true, false);
 }
 
 /* ---- the call ---- */
@@ -181,7 +194,10 @@ static void stream_interleave(stream *s, const uint32_t start[STREAM_KEYS], cons
     for (uint32_t place = first; place < STREAM_UNUSUAL; place++)
         for (uint32_t k = octant_order[place], i = 0; i < number[k]; i++)
             *to++ = s->ray_list[start[k] + i];
-    CGT_KERNEL(cgt_stream_interleave)(s, s->arena, (uint32_t)(to - s->arena));
+    if (s->list)
+        CGT_KERNEL(cgt_stream_list_turns)(s, s->arena, (uint32_t)(to - s->arena));
+    else
+        CGT_KERNEL(cgt_stream_interleave)(s, s->arena, (uint32_t)(to - s->arena));
 }
 
 /* Whether the streams of pairs of octants, of as many rays, have fallen apart. One octant tells little: from surfaces
@@ -206,7 +222,9 @@ CGT_SPU_INLINE void stream_trace_octants(stream *s, const uint32_t start[STREAM_
         }
         traced += count;
         stream_set_octant(s, k);
-        if (s->call.skips_prims)
+        if (s->list)
+            stream_trace_lists(s, list, count);
+        else if (s->call.skips_prims)
             stream_trace_masked(s, list, count);
         else if (s->call.any_hit)
             stream_trace_any(s, list, count);
@@ -218,9 +236,20 @@ CGT_SPU_INLINE void stream_trace_octants(stream *s, const uint32_t start[STREAM_
 /* Whether streams would be short: an octant has few rays, or more of them that start far apart. */
 static bool stream_is_short(const stream *s, uint32_t rays, uint32_t octants)
 {
-    const float factor = s->call.any_hit ? 1 : 0.5f, max_rays = INTERLEAVE_MAX_RAYS * factor;
+    const float factor = s->call.any_hit || s->list ? 1 : 0.5f, max_rays = INTERLEAVE_MAX_RAYS * factor;
     const float min_rays = INTERLEAVE_MIN_RAYS + INTERLEAVE_SPREAD_RAYS * factor * s->origin_spread;
     return (float)rays < (float)octants * (min_rays < max_rays ? min_rays : max_rays);
+}
+
+/* Sets up a call. */
+static void stream_begin(stream *s, const cgt_committed_scene *committed_scene, const ray_source *source,
+                         uint64_t first, cgt_counts *counts)
+{
+    bvh_call_init(committed_scene, counts, &s->call);
+    s->call.source = source;
+    s->call.first = first;
+    s->limits = bvh_ray_limits(s->call.scale);
+    s->limits.max_org = STREAM_MAX_ORG / s->call.scale;
 }
 
 static void stream_trace_all(stream *s, const uint32_t start[STREAM_KEYS], const uint32_t number[STREAM_KEYS])
@@ -234,7 +263,10 @@ static void stream_trace_all(stream *s, const uint32_t start[STREAM_KEYS], const
         stream_interleave(s, start, number, 0);
     else
         stream_trace_octants(s, start, number);
-    CGT_KERNEL(cgt_stream_trace_unusual)(s, s->ray_list + start[STREAM_UNUSUAL], number[STREAM_UNUSUAL]);
+    if (s->list)
+        CGT_KERNEL(cgt_stream_list_turns)(s, s->ray_list + start[STREAM_UNUSUAL], number[STREAM_UNUSUAL]);
+    else
+        CGT_KERNEL(cgt_stream_trace_unusual)(s, s->ray_list + start[STREAM_UNUSUAL], number[STREAM_UNUSUAL]);
 }
 
 void CGT_KERNEL(cgt_bvh_trace_rays)(const cgt_committed_scene *committed_scene, const cgt_rays *rays, uint64_t first,
@@ -245,12 +277,9 @@ void CGT_KERNEL(cgt_bvh_trace_rays)(const cgt_committed_scene *committed_scene, 
     uint32_t start[STREAM_KEYS], number[STREAM_KEYS];
     const uint32_t count = (uint32_t)(end - first);
     const ray_source source = ray_source_init(rays, NULL);
-    bvh_call_init(committed_scene, counts, &s->call);
-    s->call.source = &source;
-    s->call.first = first;
+    stream_begin(s, committed_scene, &source, first, counts);
+    s->list = NULL;
     s->call.any_hit = hits == NULL;
-    s->limits = bvh_ray_limits(s->call.scale);
-    s->limits.max_org = STREAM_MAX_ORG / s->call.scale;
     s->call.moved = committed_scene->valid ? &s->limits : NULL;
     s->occluded = hits ? NULL : occluded + first;
     if (!hits)
@@ -269,5 +298,47 @@ void CGT_KERNEL(cgt_bvh_trace_rays)(const cgt_committed_scene *committed_scene, 
         counts->hits += s->updates;
     else
         CGT_KERNEL(cgt_stream_store_hits)(s, count, settings, hits);
+    cgt_scratch_return(counts->scratch, s);
+}
+
+/* ---- lists of hits ---- */
+
+/* Rays in arrays. */
+typedef struct stream_arrays {
+    float org[3][LIST_CHUNK], dir[3][LIST_CHUNK], t_min[LIST_CHUNK], t_max[LIST_CHUNK];
+} stream_arrays;
+
+static void stream_gather_rays(cgt_hit_list *const *lists, uint32_t count, float scale, stream_arrays *to)
+{
+    for (uint32_t k = 0; k < count; k++) {
+        const cgt_ray *ray = lists[k]->ray;
+        for (int a = 0; a < 3; a++) {
+            to->org[a][k] = ray->line.org[a];
+            to->dir[a][k] = ray->line.dir[a];
+        }
+        to->t_min[k] = ray->t_min;
+        to->t_max[k] = ray->t_max;
+        list_set_units(lists[k], scale);
+    }
+}
+
+void CGT_KERNEL(cgt_list_streams)(const cgt_committed_scene *committed_scene, cgt_hit_list *const *lists,
+                                  uint32_t count, cgt_counts *counts)
+{
+    stream *s = cgt_scratch_take(counts->scratch, sizeof *s);
+    stream_arrays *given = cgt_scratch_take(counts->scratch, sizeof *given);
+    const cgt_rays rays = {.count = count,
+                           .org = {given->org[0], given->org[1], given->org[2]},
+                           .dir = {given->dir[0], given->dir[1], given->dir[2]},
+                           .t_min = given->t_min,
+                           .t_max = given->t_max};
+    const ray_source source = ray_source_init(&rays, NULL);
+    uint32_t start[STREAM_KEYS], number[STREAM_KEYS];
+    stream_begin(s, committed_scene, &source, 0, counts);
+    s->list = lists;
+    s->call.skips_prims = true; /* for rays that leave their stream */
+    stream_gather_rays(lists, count, s->call.scale, given);
+    stream_read_rays(s, count, false, start, number);
+    stream_trace_all(s, start, number);
     cgt_scratch_return(counts->scratch, s);
 }

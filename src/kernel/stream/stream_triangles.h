@@ -22,7 +22,7 @@
 #define CGT_STREAM_TRIANGLES_H
 
 #include "kernel/primitive/lane_vectors.h"
-#include "kernel/stream/stream_leaf.h"
+#include "kernel/stream/stream_lists.h"
 
 /* The bounds that a leaf's triangles share, and the terms of each that are not in its block. */
 typedef struct leaf_normals {
@@ -255,7 +255,7 @@ __attribute__((noinline, cold, unused)) static void leaf_drop_parallel(const str
 
 CGT_SPU_INLINE void leaf_stream_triangles(stream *s, const triangle_block *leaf, const leaf_candidates *candidates,
                                           const leaf_box *box, const uint32_t *list, uint32_t rays, bool any_hit,
-                                          bool skips_prims)
+                                          bool skips_prims, bool lists)
 {
     const bool unbounded = s->unbounded, masked = skips_prims && s->call.mask;
     const leaf_flat_axes flat = leaf_find_flat_axes(leaf);
@@ -295,9 +295,15 @@ CGT_SPU_INLINE void leaf_stream_triangles(stream *s, const triangle_block *leaf,
                 leaf_triangle_any(&r, &b, &q, &sides, &f);
             else
                 leaf_triangle_closest(&r, &b, &q, &sides, &f);
-            leaf_update_hits(s, &r, &f, leaf->prim[k], any_hit, skips_prims);
+            if (lists)
+                leaf_list_hits(s, &r, &f, leaf->prim[k], CGT_NEAR_SIDE);
+            else
+                leaf_update_hits(s, &r, &f, leaf->prim[k], any_hit, skips_prims);
         }
-        leaf_rays_store(s, &r, any_hit);
+        if (lists)
+            leaf_list_store(s, &r);
+        else
+            leaf_rays_store(s, &r, any_hit);
     }
 }
 

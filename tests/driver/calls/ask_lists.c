@@ -22,7 +22,7 @@ typedef struct list_call {
 static cgt_visit take_hits(void *user, uint64_t ray, const cgt_hit *hits, uint32_t count)
 {
     driver_lists *l = user;
-    for (uint32_t k = 0; k < count && l->count[ray] < DRIVER_LIST; k++)
+    for (uint32_t k = 0; ray < DRIVER_LISTED && k < count && l->count[ray] < DRIVER_LIST; k++)
         l->hit[ray][l->count[ray]++] = hits[k];
     return CGT_VISIT_CONTINUE;
 }
@@ -90,9 +90,10 @@ static void compare_with_first(const list_call *c, uint32_t i)
         driver_fail_bits(c, i);
 }
 
+/* Of all rays, so that streams are long; only the first ones are judged. */
 static bool visit_lists(const list_call *c)
 {
-    const cgt_rays rays = asked_rays(c->run);
+    const cgt_rays rays = driver_ray_array(c->run->ray, c->run->rays);
     const cgt_all_hits_options all = {.crossings = c->crossings};
     const cgt_trace_options options = {.precision = c->fast ? CGT_PRECISION_FAST : CGT_PRECISION_EXACT};
     memset(c->lists->count, 0, sizeof c->lists->count);
