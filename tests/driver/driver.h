@@ -133,6 +133,7 @@ typedef struct driver_lists {
     judge_truth right[DRIVER_LISTED];
     uint32_t count[DRIVER_LISTED], first_count[DRIVER_LISTED];
     cgt_hit hit[DRIVER_LISTED][DRIVER_LIST], first[DRIVER_LISTED][DRIVER_LIST];
+    cgt_hit nearest[DRIVER_RAYS]; /* of the other rays: the first one */
 } driver_lists;
 
 struct driver_run {

@@ -22,9 +22,19 @@ typedef struct list_call {
 static cgt_visit take_hits(void *user, uint64_t ray, const cgt_hit *hits, uint32_t count)
 {
     driver_lists *l = user;
-    for (uint32_t k = 0; ray < DRIVER_LISTED && k < count && l->count[ray] < DRIVER_LIST; k++)
+    if (ray >= DRIVER_LISTED) { /* calls follow in order */
+        if (l->nearest[ray].primitive == CGT_INVALID_ID)
+            l->nearest[ray] = hits[0];
+        return CGT_VISIT_CONTINUE;
+    }
+    for (uint32_t k = 0; k < count && l->count[ray] < DRIVER_LIST; k++)
         l->hit[ray][l->count[ray]++] = hits[k];
     return CGT_VISIT_CONTINUE;
+}
+
+static judge_answer answer_of(const cgt_hit *h)
+{
+    return (judge_answer){h->t, h->primitive, h->geometry, {h->normal[0], h->normal[1], h->normal[2]}, {h->u, h->v}};
 }
 
 static void judge_list(const list_call *c, uint32_t i)
@@ -40,8 +50,7 @@ static void judge_list(const list_call *c, uint32_t i)
                                      c->fast ? NAN : h->t);
         if (k < 0)
             break;
-        const judge_answer answer = {
-            h->t, h->primitive, h->geometry, {h->normal[0], h->normal[1], h->normal[2]}, {h->u, h->v}};
+        const judge_answer answer = answer_of(h);
         const char *wrong = c->fast ? NULL : judge_values(&run->scene, ray, &run->pool.hit[k], &answer);
         run->count[COUNT_VALUES]++;
         if (wrong)
@@ -90,13 +99,27 @@ static void compare_with_first(const list_call *c, uint32_t i)
         driver_fail_bits(c, i);
 }
 
-/* Of all rays, so that streams are long; only the first ones are judged. */
+/* The first hit is the nearest one. */
+static void judge_first(const list_call *c, uint32_t i)
+{
+    driver_run *const run = c->run;
+    const judge_answer answer = answer_of(&c->lists->nearest[i]);
+    const char *const wrong = judge_nearest(&run->scene, &run->pool, &run->right[i], &run->ray[i], c->fast, &answer);
+    run->count[COUNT_ANSWERS]++;
+    if (wrong)
+        driver_fail(run, &run->ray[i], c->name, "the first of all: %s: %d.%d at %a", wrong, (int)answer.geometry,
+                    (int)answer.primitive, (double)answer.t);
+}
+
+/* Of all rays, so that streams are long; of those beyond the first the nearest hit alone is judged. */
 static bool visit_lists(const list_call *c)
 {
     const cgt_rays rays = driver_ray_array(c->run->ray, c->run->rays);
     const cgt_all_hits_options all = {.crossings = c->crossings};
     const cgt_trace_options options = {.precision = c->fast ? CGT_PRECISION_FAST : CGT_PRECISION_EXACT};
     memset(c->lists->count, 0, sizeof c->lists->count);
+    for (uint32_t i = 0; i < c->run->rays; i++)
+        c->lists->nearest[i] = (cgt_hit){.t = INFINITY, .primitive = CGT_INVALID_ID, .geometry = CGT_INVALID_ID};
     if (!driver_succeeds(c->run,
                          cgt_visit_all_rays(c->run->setup.scene, &rays, &all, CGT_FIELD_NORMAL | CGT_FIELD_UV,
                                             take_hits, c->lists, &options),
@@ -107,6 +130,8 @@ static bool visit_lists(const list_call *c)
         if (!c->fast)
             compare_with_first(c, i);
     }
+    for (uint32_t i = listed(c->run); i < c->run->rays && !c->crossings; i++)
+        judge_first(c, i);
     return true;
 }
 

@@ -128,6 +128,33 @@ void lattice_lines(judge_scene *s, judge_ray *ray, uint32_t count)
 
 /* ---- streams ---- */
 
+/* Turns a line to the silhouette of a sphere, but for roundings. */
+static void graze(judge_scene *s, truth_ray *line)
+{
+    const oracle_primitive *const at = s->count ? &s->primitive[random_below(&s->random, s->count)] : NULL;
+    float out[3];
+    double way[3], square = 0, along = 0, aside = 0;
+    if (!at || at->kind != ORACLE_SPHERE || judge_is_broken(at))
+        return;
+    const double radius = (double)at->data[3];
+    random_direction(&s->random, out);
+    for (int a = 0; a < 3; a++) {
+        way[a] = (double)at->data[a] - (double)line->org[a];
+        square += way[a] * way[a];
+        along += way[a] * (double)out[a];
+    }
+    const double rest = square - radius * radius;
+    if (!(rest > 0))
+        return;
+    for (int a = 0; a < 3; a++) {
+        const double across = (double)out[a] - way[a] * along / square;
+        aside += across * across;
+    }
+    for (int a = 0; a < 3; a++)
+        line->dir[a] = (float)(way[a] * rest / square +
+                               ((double)out[a] - way[a] * along / square) * radius * sqrt(rest / square / aside));
+}
+
 /* In any octant; or all equal, to a pole of a sphere, where box and sphere end. */
 void neighbour_lines(judge_scene *s, judge_ray *ray, uint32_t count)
 {
@@ -150,6 +177,8 @@ void neighbour_lines(judge_scene *s, judge_ray *ray, uint32_t count)
             aim(s, line);
         if (i % 4 == 2)
             line->dir[random_below(r, 3)] = random_below(r, 2) ? 0 : -0.f;
+        if (i % 4 == 3)
+            graze(s, line);
         for (uint32_t a = 0; a < 3 && along; a++)
             line->dir[a] = a == axis ? -side : 0;
     }
