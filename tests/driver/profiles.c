@@ -220,5 +220,22 @@ const driver_profile driver_profiles[] = {
      .ways = DRIVER_ANY_WAY,
      .loads = 8,
      .shows = {{COUNT_HITS, COUNT_SCENES, 50}, {COUNT_SEEN, COUNT_PIXELS, 0.2}, {COUNT_PACKETS, COUNT_TRACED, 0.05}}},
+    /* meshes whose neighbours are grouped in clusters, whole, spoilt and loose, in motion */
+    {.name = "sheets",
+     .scenes = 9,
+     .groups = {&sheet_scenes},
+     .lines = {any_lines, edge_lines},
+     .rays = 300,
+     .lit = DRIVER_LIT,
+     .masks = 8,
+     .skips = 8,
+     .calls = {&call_nearest, &call_frames},
+     .ways = WAY_CLUSTERS,
+     .loads = 6,
+     .shows = {{COUNT_HITS, COUNT_SCENES, 100},
+               {COUNT_SEEN, COUNT_PIXELS, 0.2},
+               {COUNT_OCCLUDED, COUNT_SHADOWS, 0.2},
+               {COUNT_CLUSTERS, COUNT_LOADS, 0.3},
+               {COUNT_RELOADS, COUNT_LOADS, 0.2}}},
 };
 const uint32_t driver_profile_count = TEST_COUNT(driver_profiles);

@@ -10,7 +10,7 @@
 #include "support/oracle/oracle_filter.h"
 #include "support/random.h"
 
-#define JUDGE_PRIMITIVES 8192u
+#define JUDGE_PRIMITIVES 18432u
 #define JUDGE_GEOMETRIES 9u
 #define JUDGE_KINDS 3
 
