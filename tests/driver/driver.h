@@ -204,7 +204,7 @@ void driver_filter(driver_run *run, judge_ray *ray, const judge_truth *right);
 
 cgt_rays driver_ray_array(const judge_ray *rays, uint32_t count);
 
-/* A ray alone. False where that is another one: a t_max of 0 stands for infinity. */
+/* A ray alone. False where that is another one: a t_max of 0 stands for infinity, and is taken for it now and then. */
 bool driver_single(const judge_ray *ray, cgt_single_ray *single);
 
 struct driver_view *driver_view_make(void);
