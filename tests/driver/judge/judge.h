@@ -37,6 +37,9 @@ typedef struct judge_scene {
     int low, high; /* coordinates are multiples of 2^low, and below 2^high */
 } judge_scene;
 
+/* Finds bounds and bits, when geometries and primitives are there. */
+void judge_scene_measure(judge_scene *s);
+
 /* Lets [low, high) hold the exponents of a number's bits. */
 void judge_widen_bits(float f, int *low, int *high);
 
