@@ -12,7 +12,7 @@
 #   cgt_add_cluster_test(<name> [SLOW] [VARIANTS] [LABELS ...] [LIBRARIES ...] [TIMEOUT ...])
 #       Runs a test from above again, as <name>_clusters[_<row>]. clusters/always_clusters.c replaces the library's
 #       choice, so that every geometry of triangles gets clusters, however small and wherever it lies.
-#       Left out with the thread sanitizer and where the emulator computes in software: test_clusters covers those.
+#       Left out with the thread sanitizer and where the emulator computes in software: hits_sheets covers those.
 #       CGT_TEST_CLUSTERS=SHORT runs the heavy loops less often, OFF leaves these tests out.
 #   cgt_add_profile_tests(<name> <profiles>... [LABELS ...] [TIMEOUT ...])
 #       Runs the program of a test from above again, once per profile, which is its argument, as <name>_<profile>.

@@ -149,16 +149,29 @@ TEST(other_structures_need_nothing)
     }
 }
 
+/* As many calls of one ray. */
+static void trace_alone(const setting *s, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const cgt_single_ray ray = single_ray(&s->ray[i]);
+        cgt_hit hit;
+        assert_int_equal(cgt_trace_ray(s->scene, &ray, &hit, NULL), CGT_OK);
+    }
+}
+
 /* A 32nd of a ray a primitive pays for a BVH, whatever the number of calls. */
 TEST(calls_add_up)
 {
     setting *s = open(context_make(2, NULL), NULL);
-    for (int round = 0; round < 2; round++) {
+    for (int round = 0; round < 3; round++) {
         assert_int_equal(cgt_scene_set_options(s->scene, &(cgt_scene_options){0}), CGT_OK); /* forgets what came */
         assert_int_equal(cgt_scene_commit(s->scene), CGT_OK);
         bvh_rays(s, SPHERES / 64);
         assert_int_equal(statistics_of(s->scene).bvh_bytes, 0);
-        bvh_rays(s, SPHERES / 64 + 1);
+        if (round == 2)
+            trace_alone(s, SPHERES / 64 + 1);
+        else
+            bvh_rays(s, SPHERES / 64 + 1);
         assert_true(statistics_of(s->scene).bvh_bytes > 0);
     }
     close(s);

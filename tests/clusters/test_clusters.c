@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Clusters of a mesh's triangles (triangle_cluster.h): which scenes get them, that their boxes bound the triangles
- * tightly, and that hits are those of single triangles. What structures make of them test_structure_contracts checks,
- * as test_structure_contracts_clusters. */
+ * Clusters of a mesh's triangles (triangle_cluster.h): which scenes get them, and that their boxes bound the triangles
+ * tightly. What structures make of them test_structure_contracts checks, as test_structure_contracts_clusters; hits are
+ * those of tests/driver, profile `sheets`. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,6 +12,7 @@
 #include "exact/valid_primitive.h"
 #include "model/triangle_cluster.h"
 #include "scene/scene.h"
+#include "structures/scenes/rolled_sheet.h"
 #include "support/scenes.h"
 #include "support/suite.h"
 
@@ -32,8 +33,6 @@ typedef struct mesh {
     part part[PARTS];
 } mesh;
 
-#define COLUMNS 64u /* squares per row */
-
 static const uint32_t uneven[PARTS] = {1, 7, 9, 4099, 6003};
 
 static const cgt_scene_options automatic = {.structure = CGT_STRUCTURE_AUTO};
@@ -42,28 +41,6 @@ static const cgt_scene_options bvh = {.structure = CGT_STRUCTURE_BVH};
 static const cgt_scene_options kd_tree = {.structure = CGT_STRUCTURE_KD};
 
 /* ---- meshes ---- */
-
-/* A wavy sheet, rolled up, so that it shows several layers from any direction; rows run along the roll, and squares
- * grow from row to row and along each row. */
-static void point_at(uint32_t column, uint32_t row, uint32_t rows, double phase, float p[3])
-{
-    const double s = (double)row / rows, t = (double)column / COLUMNS;
-    const double angle = 9 * s * (0.2 + 0.8 * s) + phase, radius = 0.35 + 0.07 * angle + 0.03 * sin(20 * t + phase);
-    p[0] = (float)(radius * cos(angle));
-    p[1] = (float)(radius * sin(angle));
-    p[2] = (float)(2 * t * (0.1 + 0.9 * t) - 1 + 0.05 * sin(7 * angle - phase));
-}
-
-/* All triangles, row by row. */
-static void mesh_place(mesh *m, double phase)
-{
-    static const uint32_t corner[2][3][2] = {{{0, 0}, {1, 0}, {0, 1}}, {{1, 1}, {0, 1}, {1, 0}}};
-    const uint32_t rows = (m->count + 2 * COLUMNS - 1) / (2 * COLUMNS);
-    for (uint32_t i = 0; i < m->count; i++)
-        for (uint32_t k = 0; k < 3; k++)
-            point_at(i / 2 % COLUMNS + corner[i % 2][k][0], i / 2 / COLUMNS + corner[i % 2][k][1], rows, phase,
-                     m->triangle[i][k]);
-}
 
 /* form: with or without indices, with or without gaps in the arrays. */
 static void part_make(part *p, uint32_t first, uint32_t count, uint32_t form)
@@ -89,7 +66,7 @@ static mesh mesh_make(const uint32_t *counts, uint32_t parts, uint32_t form)
     }
     m.triangle = malloc(m.count * sizeof *m.triangle);
     assert_non_null(m.triangle);
-    mesh_place(&m, 0);
+    rolled_sheet(m.triangle, m.count, 0);
     return m;
 }
 
@@ -121,35 +98,6 @@ static void mesh_store(const mesh *m)
                 if (p->index)
                     index_at(p, i)[k] = at;
             }
-}
-
-/* Makes triangles that are skipped: all or every other one of some clusters, and single ones. Some lie far away, where
- * boxes must not reach. Those and NaNs are few, since their clusters do not count as neighbours. */
-static void mesh_spoil(const mesh *m)
-{
-    for (uint32_t i = 0; i < m->count; i++) {
-        const uint32_t c = i / CGT_CLUSTER;
-        float(*v)[3] = m->triangle[i];
-        if (c % 41 == 5 || i % 11 == 7)
-            memcpy(v[2], v[1], sizeof v[2]);
-        if (c % 82 == 46 || (c % 37 == 3 && i % 2))
-            v[i % 3][i / 3 % 3] = i % 5 ? NAN : -INFINITY;
-        if (c % 53 == 4 && i % 3 == 0)
-            for (int a = 0; a < 3; a++)
-                v[0][a] = v[1][a] = v[2][a] = i % 2 ? 1.5f : -1.5f;
-    }
-}
-
-/* Makes clusters eight times as long as necessary, and useful only in grids. */
-static void mesh_loosen(const mesh *m)
-{
-    enum { CLUSTERS = 8, BLOCK = CLUSTERS * CGT_CLUSTER };
-    for (uint32_t first = 0; first + BLOCK <= m->count; first += BLOCK) {
-        float block[BLOCK][3][3];
-        memcpy(block, m->triangle[first], sizeof block);
-        for (uint32_t k = 0; k < BLOCK; k++)
-            memcpy(m->triangle[first + k], block[k % CGT_CLUSTER * CLUSTERS + k / CGT_CLUSTER], sizeof block[0]);
-    }
 }
 
 static void mesh_shuffle(const mesh *m, test_random *r)
@@ -232,7 +180,7 @@ TEST(neighbours_get_clusters)
     mesh m = mesh_of(LEAST, 1);
     for (uint32_t spoiled = 0; spoiled < 2; spoiled++) {
         if (spoiled)
-            mesh_spoil(&m);
+            rolled_sheet_spoil(m.triangle, m.count);
         mesh_store(&m);
         cgt_scene *scene = committed(context, &automatic, &m);
         const cgt_scene_statistics st = statistics_of(scene);
@@ -277,7 +225,7 @@ TEST(loose_clusters_serve_grids)
     mesh m = mesh_of(LEAST, 0);
     mesh_store(&m);
     assert_int_equal(use_of(context, &automatic, &m), CGT_CLUSTERS_ALL);
-    mesh_loosen(&m);
+    rolled_sheet_loosen(m.triangle, m.count);
     mesh_store(&m);
     assert_int_equal(use_of(context, &automatic, &m), CGT_CLUSTERS_GRID);
     assert_int_equal(use_of(context, &bvh, &m), CGT_CLUSTERS_NONE);
@@ -325,7 +273,7 @@ TEST(each_commit_decides)
     assert_null(scene->committed_scene.cluster);
     assert_int_equal(research_of(scene).references, LEAST + 5);
     assert_null(strstr(statistics_of(scene).reason, "runs of 8"));
-    mesh_place(&m, 0.5);
+    rolled_sheet(m.triangle, m.count, 0.5);
     mesh_store(&m);
     commit(scene);
     assert_non_null(scene->committed_scene.cluster);
@@ -364,6 +312,7 @@ TEST(an_index_out_of_range_is_reported)
     mesh_free(&m);
     cgt_context_release(context);
 }
+
 /* ---- boxes ---- */
 
 /* Every number is a difference of floats, exact in double up to an error below the rounding of the box itself. */
@@ -401,7 +350,7 @@ TEST(boxes_bound_valid_triangles)
     for (uint32_t form = 0; form < 4; form++) {
         mesh m = mesh_make(uneven, PARTS, form);
         uint32_t empty = 0;
-        mesh_spoil(&m);
+        rolled_sheet_spoil(m.triangle, m.count);
         mesh_store(&m);
         cgt_scene *scene = committed(context, &automatic, &m);
         const cgt_committed_scene *w = &scene->committed_scene;
@@ -412,80 +361,6 @@ TEST(boxes_bound_valid_triangles)
         }
         assert_true(empty > 20);
         cgt_scene_release(scene);
-        mesh_free(&m);
-    }
-    cgt_context_release(context);
-}
-
-/* ---- hits ---- */
-
-enum { EDGE = 96, RAYS = 800 };
-
-/* What a camera, rays, and points against a light see of a scene. */
-typedef struct answers {
-    planes frame;
-    full_hit hit[RAYS];
-    uint8_t occluded[RAYS], shadow[EDGE * EDGE];
-} answers;
-
-static answers *ask(const cgt_scene *scene, const truth_ray *ray)
-{
-    answers *a = calloc(1, sizeof *a);
-    const cgt_rays rays = ray_array(ray, RAYS);
-    const cgt_light light = {.position = {0.05f, -0.1f, 0.2f}}; /* inside the roll */
-    assert_non_null(a);
-    const cgt_camera camera = {.eye = {2.4f, 1.1f, 1.3f}, .up = {0, 1, 0}, .fov = 50};
-    a->frame = planes_make(EDGE, EDGE);
-    frame_trace(scene, &camera, &a->frame, NULL);
-    const cgt_frame frame = frame_of(&a->frame);
-    assert_int_equal(cgt_occluded_frame(scene, &camera, &frame, &light, 1, NULL, a->shadow, NULL), CGT_OK);
-    assert_int_equal(trace_array(scene, ray, RAYS, a->hit, NULL), CGT_OK);
-    assert_int_equal(cgt_occluded_rays(scene, &rays, a->occluded, NULL), CGT_OK);
-    return a;
-}
-
-/* Clusters in grids and in the BVH find the hits of a kd-tree over single triangles, at rest and in motion. */
-TEST(hits_are_those_of_triangles)
-{
-    static truth_ray ray[RAYS];
-    const cgt_scene_options *const ways[] = {&automatic, &loose_grid, &bvh};
-    test_random r = random_make(3);
-    cgt_context *context = context_make(2, NULL);
-    for (uint32_t i = 0; i < RAYS; i++)
-        ray[i] = ray_random(&r, &(cloud){.reach = 1});
-    for (uint32_t form = 0; form < 3; form++) { /* the last one with a BVH of single triangles */
-        mesh m = mesh_make(uneven, PARTS, form);
-        cgt_scene *scene[TEST_COUNT(ways) + 1];
-        for (uint32_t step = 0; step < 2; step++) {
-            mesh_place(&m, 0.1 * step);
-            if (form == 2)
-                mesh_loosen(&m);
-            if (form)
-                mesh_spoil(&m);
-            mesh_store(&m);
-            answers *want = NULL;
-            for (size_t k = 0; k <= TEST_COUNT(ways); k++) {
-                if (step)
-                    commit(scene[k]);
-                else
-                    scene[k] = committed(context, k ? ways[k - 1] : &kd_tree, &m);
-                assert_int_equal(scene[k]->committed_scene.cluster != NULL, k > 0 && !(form == 2 && k == 3));
-                answers *got = ask(scene[k], ray);
-                want = want ? want : got;
-                assert_true(planes_equal(&got->frame, &want->frame));
-                assert_memory_equal(got->hit, want->hit, sizeof want->hit);
-                assert_memory_equal(got->occluded, want->occluded, sizeof want->occluded);
-                assert_memory_equal(got->shadow, want->shadow, sizeof want->shadow);
-                if (k) {
-                    planes_free(&got->frame);
-                    free(got);
-                }
-            }
-            planes_free(&want->frame);
-            free(want);
-        }
-        for (size_t k = 0; k <= TEST_COUNT(ways); k++)
-            cgt_scene_release(scene[k]);
         mesh_free(&m);
     }
     cgt_context_release(context);

@@ -103,6 +103,8 @@ bool driver_single(const judge_ray *ray, cgt_single_ray *single)
 {
     *single = single_ray(&ray->line);
     single->mask = ray->mask;
+    if (ray->line.t_max == INFINITY && ray->line.org[0] < ray->line.org[1])
+        single->t_max = 0;
     static cgt_hit skip; /* one ray at a time */
     skip = (cgt_hit){.primitive = ray->skip_primitive, .geometry = ray->skip_geometry};
     single->skip = ray->skip_primitive != CGT_INVALID_ID ? &skip : NULL;

@@ -39,6 +39,8 @@
     X(SEEN, "pixels with a hit")                                                                                       \
     X(SHADOWS, "shadow rays")                                                                                          \
     X(OCCLUDED, "occluded")                                                                                            \
+    X(BOUNCES, "bounces")                                                                                              \
+    X(OWN, "far sides of what a ray is in")                                                                            \
     X(MASKED, "rays with a mask")                                                                                      \
     X(SKIPPING, "rays that skip what they hit")                                                                        \
     X(CUT, "ranges cut at hits")                                                                                       \
@@ -46,6 +48,8 @@
     X(BANDS, "loads in bands")                                                                                         \
     X(APART, "loads in bands with primitives apart")                                                                   \
     X(RELOADS, "loads over others")                                                                                    \
+    X(CLUSTERS, "loads with clusters")                                                                                 \
+    X(REFUSED, "loads refused")                                                                                        \
     X(TRACED, "rays traced") /* of arrays and frames, and their statistics: */                                         \
     X(INVALID, "invalid")                                                                                              \
     X(BVH, "through a BVH")                                                                                            \
@@ -74,7 +78,7 @@ typedef struct driver_call {
     void (*ask)(driver_run *run);
 } driver_call;
 
-extern const driver_call call_nearest, call_lists, call_inside, call_frames;
+extern const driver_call call_nearest, call_lists, call_inside, call_frames, call_bounces;
 
 /* What a test must have counted: at least so much for each of another counter. */
 typedef struct driver_show {
@@ -104,6 +108,14 @@ extern const uint32_t driver_profile_count;
 
 /* ---- a scene in the library: load.c ---- */
 
+/* One of the numbers in arrays that name vertices or types; at: NULL if there is none. */
+typedef struct driver_number {
+    char *at;
+    size_t bytes;
+    uint32_t below, primitive; /* numbers below it name something */
+    const char *what;
+} driver_number;
+
 /* A context, a structure, and a way to load arrays. */
 typedef struct driver_setup {
     const char *variant;
@@ -116,6 +128,7 @@ typedef struct driver_setup {
     char name[96];
     void *block[72]; /* the arrays, each of its own size */
     uint32_t blocks;
+    driver_number named;
 } driver_setup;
 
 /* Loads the run's scene. Its random numbers choose, and are used up. */
@@ -192,7 +205,7 @@ void driver_filter(driver_run *run, judge_ray *ray, const judge_truth *right);
 
 cgt_rays driver_ray_array(const judge_ray *rays, uint32_t count);
 
-/* A ray alone. False where that is another one: a t_max of 0 stands for infinity. */
+/* A ray alone. False where that is another one: a t_max of 0 stands for infinity, and is taken for it now and then. */
 bool driver_single(const judge_ray *ray, cgt_single_ray *single);
 
 struct driver_view *driver_view_make(void);

@@ -35,11 +35,14 @@ static void *allocate(driver_setup *setup, size_t bytes)
     return block;
 }
 
-/* Elements of `size` bytes at a stride; what lies between is odd. */
-static char *allocate_strided(driver_setup *setup, uint32_t count, size_t size, size_t stride)
+/* Elements of `size` bytes at a stride, which one in four arrays has where nothing is aligned; what lies between is
+ * odd. */
+static char *allocate_strided(driver_setup *setup, uint32_t count, size_t size, size_t *stride, test_random *r)
 {
-    const size_t bytes = count ? (count - 1) * stride + size : 0;
-    return memset(allocate(setup, bytes), 0xff, bytes);
+    const size_t odd = random_below(r, 4) ? 0 : 1 + random_below(r, 3);
+    *stride += odd;
+    const size_t bytes = odd + (count ? (count - 1) * *stride + size : 0);
+    return (char *)memset(allocate(setup, bytes), 0xff, bytes) + odd;
 }
 
 /* The points of a geometry's primitives, `each` of them a primitive, in the order of `at`. */
@@ -74,9 +77,9 @@ static point_array make_points(driver_setup *setup, const judge_scene *s, const 
     static const double origins[][3] = {{0, 0, 0}, {12345, -777, 0x1p20}, {0.5, -0.25, 3}};
     const double *const origin = origins[random_below(r, 3)];
     const size_t size = twice ? sizeof(double) : sizeof(float);
-    const size_t stride = size * (3 + random_below(r, 3));
+    size_t stride = size * (3 + random_below(r, 3));
     point_array p = {.count = g->count * each};
-    char *const block = allocate_strided(setup, p.count, 3 * size, stride);
+    char *const block = allocate_strided(setup, p.count, 3 * size, &stride, r);
     const bool fits = twice && fits_origin(s, g, each, origin);
     for (int a = 0; a < 3; a++)
         p.origin[a] = fits ? origin[a] : 0;
@@ -102,21 +105,34 @@ static void shuffle(uint32_t *number, uint32_t count, test_random *r)
     }
 }
 
-/* Numbers of a format, in groups of `each` at a stride. */
+static void store_number(char *at, size_t bytes, uint64_t number)
+{
+    const uint8_t byte = (uint8_t)number;
+    const uint16_t half = (uint16_t)number;
+    const uint32_t word = (uint32_t)number;
+    const void *const from = bytes == 1   ? (const void *)&byte
+                             : bytes == 2 ? (const void *)&half
+                             : bytes == 4 ? (const void *)&word
+                                          : &number;
+    memcpy(at, from, bytes);
+}
+
+/* Types, or indices of vertices, `each` of them a primitive, in a format; all of them name something. */
 static cgt_array make_numbers(driver_setup *setup, const uint32_t *number, uint32_t groups, uint32_t each,
                               cgt_format format, test_random *r)
 {
-    const size_t bytes = cgt_format_get_size(format), stride = bytes * (each + random_below(r, 3));
-    char *const block = allocate_strided(setup, groups, each * bytes, stride);
-    for (uint32_t i = 0; i < groups * each; i++) {
-        const uint8_t byte = (uint8_t)number[i];
-        const uint16_t half = (uint16_t)number[i];
-        const uint64_t wide = number[i];
-        const void *const from = bytes == 1   ? (const void *)&byte
-                                 : bytes == 2 ? (const void *)&half
-                                 : bytes == 4 ? (const void *)&number[i]
-                                              : &wide;
-        memcpy(block + i / each * stride + i % each * bytes, from, bytes);
+    const size_t bytes = cgt_format_get_size(format);
+    size_t stride = bytes * (each + random_below(r, 3));
+    char *const block = allocate_strided(setup, groups, each * bytes, &stride, r);
+    for (uint32_t i = 0; i < groups * each; i++)
+        store_number(block + i / each * stride + i % each * bytes, bytes, number[i]);
+    if (groups && random_below(r, 2)) {
+        const uint32_t i = random_below(r, groups);
+        setup->named = (driver_number){.at = block + i * stride + random_below(r, each) * bytes,
+                                       .bytes = bytes,
+                                       .below = groups * each,
+                                       .primitive = i,
+                                       .what = each == 1 ? "type" : "index"};
     }
     return (cgt_array){block, stride, format};
 }
@@ -132,10 +148,11 @@ static radius_array make_radii(driver_setup *setup, const judge_scene *s, const 
 {
     const uint32_t form = random_below(r, 4);
     const bool twice = form == 1, types = form == 2 && g->count < 250;
-    const size_t size = twice ? sizeof(double) : sizeof(float), stride = size * (1 + random_below(r, 3));
+    const size_t size = twice ? sizeof(double) : sizeof(float);
+    size_t stride = size * (1 + random_below(r, 3));
     uint32_t at[JUDGE_PRIMITIVES];
     radius_array a = {.type_count = types ? g->count : 0};
-    char *const block = allocate_strided(setup, g->count, size, stride);
+    char *const block = allocate_strided(setup, g->count, size, &stride, r);
     shuffle(at, g->count, r);
     for (uint32_t i = 0; i < g->count; i++) {
         const float x = s->primitive[g->first + i].data[g->kind == ORACLE_SPHERE ? 3 : 6];
@@ -235,6 +252,39 @@ static void add_capsules(driver_setup *setup, const judge_scene *s, const judge_
     must(cgt_scene_set_capsules(setup->scene, place_of(setup, &id), &capsules) == CGT_OK, "capsules", setup);
 }
 
+/* ---- what is refused ---- */
+
+/* A number that names nothing: of 64 bits, its lower half names something. */
+static uint64_t odd_number(const driver_number *n, test_random *r)
+{
+    const uint64_t most = UINT64_MAX >> (64 - 8 * n->bytes);
+    if (n->bytes == 8 && random_below(r, 2))
+        return ((uint64_t)1 << 32) + random_below(r, n->below);
+    return random_below(r, 2) ? most : n->below;
+}
+
+/* A commit with such a number is refused by a sentence that names it, and the scene is mended then. */
+static void refuse(driver_run *run)
+{
+    driver_setup *const setup = &run->setup;
+    const driver_number n = setup->named;
+    char before[8], text[96];
+    if (!n.at || random_below(&run->scene.random, 3))
+        return;
+    const uint64_t odd = odd_number(&n, &run->scene.random);
+    if (odd < n.below || odd > UINT64_MAX >> (64 - 8 * n.bytes)) /* any number of so few bits may name something */
+        return;
+    memcpy(before, n.at, n.bytes);
+    store_number(n.at, n.bytes, odd);
+    snprintf(text, sizeof text, " %u has %s %llu, but there are %u ", (unsigned)n.primitive, n.what,
+             (unsigned long long)odd, (unsigned)n.below);
+    run->count[COUNT_REFUSED]++;
+    if (cgt_scene_commit(setup->scene) != CGT_ERROR_INVALID_ARGUMENT || !strstr(context_message(setup->context), text))
+        driver_fail(run, NULL, "cgt_scene_commit", "the message \"%s\" has no \"%s\"", context_message(setup->context),
+                    text);
+    memcpy(n.at, before, n.bytes);
+}
+
 /* ---- setups ---- */
 
 static cgt_context *make_context(const driver_setup *setup)
@@ -316,6 +366,55 @@ static void remove_empty(driver_setup *setup, const judge_scene *s, test_random 
             must(cgt_scene_remove_geometry(setup->scene, k) == CGT_OK, "remove", setup);
 }
 
+/* Whether a triangle has an area beyond doubt. */
+static bool has_area(const float v[9])
+{
+    truth_real e[2][3];
+    bool has = false;
+    for (int a = 0; a < 3; a++)
+        for (int k = 0; k < 2; k++)
+            e[k][a] = (truth_real)v[3 * k + 3 + a] - (truth_real)v[a];
+    for (int a = 0; a < 3; a++) {
+        const truth_real x = e[0][a] * e[1][(a + 1) % 3], y = e[0][(a + 1) % 3] * e[1][a], off = x - y;
+        has |= (off < 0 ? -off : off) > 0x1p-60 * ((x < 0 ? -x : x) + (y < 0 ? -y : y));
+    }
+    return has;
+}
+
+static void widen(const oracle_primitive *p, int a, double ends[2])
+{
+    const double r = p->kind == ORACLE_TRIANGLE ? 0 : (double)p->data[p->kind == ORACLE_SPHERE ? 3 : 6];
+    const int points = p->kind == ORACLE_SPHERE ? 1 : p->kind == ORACLE_CAPSULE ? 2 : 3;
+    for (int k = 0; k < points; k++) {
+        ends[0] = fmin(ends[0], (double)p->data[3 * k + a] - r);
+        ends[1] = fmax(ends[1], (double)p->data[3 * k + a] + r);
+    }
+}
+
+/* Around all that is hit, and no farther than rounding takes them; triangles of little area may be skipped. */
+static bool are_bounds(const judge_scene *s, const cgt_scene_statistics *st)
+{
+    bool good = true;
+    for (int a = 0; a < 3; a++) {
+        double sure[2] = {INFINITY, -INFINITY}, most[2] = {INFINITY, -INFINITY};
+        for (uint32_t i = 0; i < s->count; i++) {
+            const oracle_primitive *const p = &s->primitive[i];
+            if (judge_is_broken(p))
+                continue;
+            widen(p, a, most);
+            if (p->kind != ORACLE_TRIANGLE || has_area(p->data))
+                widen(p, a, sure);
+        }
+        const double low = (double)st->bounds_min[a], high = (double)st->bounds_max[a],
+                     slack = 0x1p-21 * fmax(fabs(most[0]), fabs(most[1])) + 0x1p-148;
+        if (sure[0] <= sure[1])
+            good &= low <= sure[0] && high >= sure[1] && low >= most[0] - slack && high <= most[1] + slack;
+        else if (most[0] > most[1])
+            good &= low == 0 && high == 0;
+    }
+    return good;
+}
+
 /* What the scene says about itself. */
 static void check_load(driver_run *run)
 {
@@ -332,6 +431,10 @@ static void check_load(driver_run *run)
         driver_fail(run, NULL, "cgt_scene_get_statistics", "%llu primitives, %llu skipped, structure %d; %u, %u",
                     (unsigned long long)st.primitives, (unsigned long long)st.skipped_not_finite + st.skipped_radius,
                     (int)st.structure, (unsigned)s->count, (unsigned)broken);
+    if (!are_bounds(s, &st))
+        driver_fail(run, NULL, "cgt_scene_get_statistics", "the bounds are %a %a %a, %a %a %a",
+                    (double)st.bounds_min[0], (double)st.bounds_min[1], (double)st.bounds_min[2],
+                    (double)st.bounds_max[0], (double)st.bounds_max[1], (double)st.bounds_max[2]);
 }
 
 static void count_load(driver_run *run)
@@ -339,6 +442,7 @@ static void count_load(driver_run *run)
     const cgt_scene *const scene = run->setup.scene;
     run->count[COUNT_LOADS]++;
     run->count[COUNT_BANDS] += scene->in_bands;
+    run->count[COUNT_CLUSTERS] += scene->committed_scene.cluster != NULL;
     run->count[COUNT_APART] += scene->in_bands && scene->bands->rest;
 }
 
@@ -356,8 +460,10 @@ void driver_setup_make(driver_run *run)
     const bool again = random_below(r, 3) == 0;
     if (again)
         load_others(setup, s, r);
+    setup->named = (driver_number){0};
     add_geometries(setup, s, r);
     remove_empty(setup, s, r);
+    refuse(run);
     must(cgt_scene_commit(setup->scene) == CGT_OK, "commit", setup);
     if (random_below(r, 3) == 0)
         must(cgt_scene_prepare(setup->scene, CGT_RAY_KIND_INCOHERENT) == CGT_OK, "prepare", setup);

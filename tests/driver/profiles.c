@@ -42,7 +42,7 @@ const driver_profile driver_profiles[] = {
                {COUNT_CUT, COUNT_SCENES, 10},
                {COUNT_DOUBLE, COUNT_TRACED, 2},
                {COUNT_EXACT, COUNT_TRACED, 1}}},
-    /* masks, and primitives that are skipped, of points and cameras, too */
+    /* masks, and primitives that are skipped, of points, cameras and rays that go on, too */
     {.name = "filters",
      .scenes = 100,
      .groups = {&soup_scenes, &cloud_scenes},
@@ -51,9 +51,11 @@ const driver_profile driver_profiles[] = {
      .rays = 120,
      .masks = 2,
      .skips = 2,
-     .calls = {&call_nearest, &call_frames},
+     .calls = {&call_nearest, &call_frames, &call_bounces},
      .loads = 4,
      .shows = {{COUNT_HITS, COUNT_SCENES, 50},
+               {COUNT_BOUNCES, COUNT_SCENES, 20},
+               {COUNT_OWN, COUNT_SCENES, 2},
                {COUNT_MASKED, COUNT_SCENES, 20},
                {COUNT_SKIPPING, COUNT_SCENES, 8},
                {COUNT_SEEN, COUNT_PIXELS, 0.1},
@@ -161,18 +163,22 @@ const driver_profile driver_profiles[] = {
      .ways = WAY_CHOSEN | WAY_CLUSTERS,
      .loads = 3,
      .shows = {{COUNT_HITS, COUNT_SCENES, 50}, {COUNT_BVH, COUNT_TRACED, 0.5}}},
-    /* rays at seams, silhouettes and axes of capsules, and so slow ones that a near side lies below the range of
-     * float */
+    /* rays at seams, silhouettes and axes of capsules, into them and out of them, and so slow ones that a near side lies
+     * below the range of float */
     {.name = "capsules",
      .scenes = 408,
      .groups = {&capsule_scenes},
      .lines = {capsule_lines, capsule_lines, slow_lines},
      .rays = 160,
      .cuts = 3,
-     .calls = {&call_nearest, &call_lists},
+     .calls = {&call_nearest, &call_lists, &call_frames, &call_bounces},
      .loads = 2,
      .shows = {{COUNT_HITS, COUNT_SCENES, 40},
                {COUNT_CUT, COUNT_SCENES, 5},
+               {COUNT_REFUSED, COUNT_LOADS, 0.1},
+               {COUNT_SEEN, COUNT_PIXELS, 0.1},
+               {COUNT_BOUNCES, COUNT_SCENES, 20},
+               {COUNT_OWN, COUNT_SCENES, 5},
                {COUNT_DOUBLE, COUNT_TRACED, 0.2},
                {COUNT_EXACT, COUNT_TRACED, 0.1}}},
     /* all hits, through every structure, more than a list holds and equal ones among them */
@@ -227,5 +233,22 @@ const driver_profile driver_profiles[] = {
      .ways = DRIVER_ANY_WAY,
      .loads = 8,
      .shows = {{COUNT_HITS, COUNT_SCENES, 50}, {COUNT_SEEN, COUNT_PIXELS, 0.2}, {COUNT_PACKETS, COUNT_TRACED, 0.05}}},
+    /* meshes whose neighbours are grouped in clusters, whole, spoilt and loose, in motion */
+    {.name = "sheets",
+     .scenes = 9,
+     .groups = {&sheet_scenes},
+     .lines = {any_lines, edge_lines},
+     .rays = 300,
+     .lit = DRIVER_LIT,
+     .masks = 8,
+     .skips = 8,
+     .calls = {&call_nearest, &call_frames},
+     .ways = WAY_CLUSTERS,
+     .loads = 6,
+     .shows = {{COUNT_HITS, COUNT_SCENES, 100},
+               {COUNT_SEEN, COUNT_PIXELS, 0.2},
+               {COUNT_OCCLUDED, COUNT_SHADOWS, 0.2},
+               {COUNT_CLUSTERS, COUNT_LOADS, 0.3},
+               {COUNT_RELOADS, COUNT_LOADS, 0.2}}},
 };
 const uint32_t driver_profile_count = TEST_COUNT(driver_profiles);

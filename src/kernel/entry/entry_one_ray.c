@@ -74,15 +74,33 @@ static bool one_ray_fast_triangle(const cgt_ray *ray, const cgt_triangle *q, uin
     return spux_any(covered);
 }
 
+static double one_ray_square(const float a[3], const float b[3])
+{
+    const double x = (double)a[0] - (double)b[0], y = (double)a[1] - (double)b[1], z = (double)a[2] - (double)b[2];
+    return x * x + y * y + z * z;
+}
+
+/* Whether a normal is within an eighth of right: its error is 2^-48 c / r beside a rounding, c the distance of the
+ * ray's origin to the sphere, or to the farther end of the capsule. */
+static bool one_ray_has_normal(const cgt_ray *ray, const cgt_primitive *q)
+{
+    const float *org = ray->line.org;
+    const float center[3] = {q->sphere.x, q->sphere.y, q->sphere.z};
+    if (q->kind == CGT_KIND_SPHERES)
+        return one_ray_square(org, center) <= 0x1p90 * (double)q->sphere.r * (double)q->sphere.r;
+    const double most = 0x1p90 * (double)q->capsule.r * (double)q->capsule.r;
+    return one_ray_square(org, q->capsule.p) <= most && one_ray_square(org, q->capsule.q) <= most;
+}
+
 /* The surface of a sphere or a capsule that is hit. A ray that goes in runs against the normal there; where it is too
- * flat to tell, or the normal is that of precision FAST, whose error may be an eighth, exact arithmetic decides. */
+ * flat to tell by a normal whose error may be an eighth, as those of FAST, exact arithmetic decides. */
 static uint32_t one_ray_surface(const cgt_ray *ray, const cgt_primitive *primitive, const float normal[3])
 {
     const float *dir = ray->line.dir;
     const double d[3] = {(double)dir[0], (double)dir[1], (double)dir[2]};
     const double along = d[0] * (double)normal[0] + d[1] * (double)normal[1] + d[2] * (double)normal[2];
     const double length_squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-    if (along * along > 0.25 * length_squared)
+    if (along * along > 0.25 * length_squared && one_ray_has_normal(ray, primitive))
         return along < 0 ? CGT_SURFACE_NEAR : CGT_SURFACE_FAR;
     cgt_decided_hit hit = {.primitive = *primitive};
     uint64_t exact = 0;

@@ -8,8 +8,9 @@
  * (r / h + 1), and the normal by that over r: below 2^-30 where c / h and c / r are below 2^18. A triangle's normal is
  * a cross product of edges that err by e: within 6 e of the product of their lengths, over twice the area below 2^-31
  * where that quotient is below 2^18. A capsule is met at the sphere around the nearest point of its axis, whose place
- * errs by some e of the distance to the farther end: so the bounds are a sphere's with that for c. A mirrored direction
- * errs by four times as much, and a rounding to float adds 2^-25. */
+ * errs by some e of the distance to the farther end: so the bounds are a sphere's with that for c. All of this is
+ * computed from the ray's origin on: far from that of the world, c is still the distance of the two. A mirrored
+ * direction errs by four times as much, and a rounding to float adds 2^-25. */
 #include "trace/bounce/surface.h"
 
 #include <math.h>
@@ -30,8 +31,9 @@ bool cgt_double_ray_init(const float org[3], const float dir[3], cgt_double_ray 
 
 static double clamp_share(double s) { return s > 0.0 ? (s < 1.0 ? s : 1.0) : 0.0; }
 
-/* The middle of the sphere on a capsule's axis that the line enters first, side -1, or leaves last, side 1, as in
- * kernel/primitive/lane_capsules.h. Roots depend on an error of that place in second order alone. */
+/* The middle of the sphere on a capsule's axis that the line enters first, side -1, or leaves last, side 1, from the
+ * origin of the ray on, as in kernel/primitive/lane_capsules.h. Roots depend on an error of that place in second order
+ * alone. */
 static void find_middle(const cgt_capsule *q, const cgt_double_ray *ray, double side, double middle[3])
 {
     const double r = (double)q->r, square = dot(ray->dir, ray->dir);
@@ -51,31 +53,33 @@ static void find_middle(const cgt_capsule *q, const cgt_double_ray *ray, double 
         s = clamp_share(side * lean - lg / gg);
     }
     for (int a = 0; a < 3; a++)
-        middle[a] = (double)q->p[a] + s * n[a];
+        middle[a] = c[a] + s * n[a];
 }
 
-/* The point of a capsule's axis that is nearest to a place. Returns where it is. */
-static double find_nearest(const cgt_capsule *q, const double place[3], double nearest[3])
+/* The point of a capsule's axis that is nearest to a place, both from the origin of the ray on. Returns where it is. */
+static double find_nearest(const cgt_capsule *q, const cgt_double_ray *ray, const double place[3], double nearest[3])
 {
-    double n[3], from[3];
+    double c[3], n[3], from[3];
     for (int a = 0; a < 3; a++) {
+        c[a] = (double)q->p[a] - ray->org[a];
         n[a] = (double)q->q[a] - (double)q->p[a];
-        from[a] = place[a] - (double)q->p[a];
+        from[a] = place[a] - c[a];
     }
     const double nn = dot(n, n), s = nn > 0.0 ? clamp_share(dot(from, n) / nn) : 0.0;
     for (int a = 0; a < 3; a++)
-        nearest[a] = (double)q->p[a] + s * n[a];
+        nearest[a] = c[a] + s * n[a];
     return s;
 }
 
-/* The middle of a sphere, or of the one that stands for a capsule on that side; *r: its radius. */
+/* The middle of a sphere, or of the one that stands for a capsule on that side, from the origin of the ray on; *r: its
+ * radius. */
 static void find_sphere(const cgt_primitive *q, const cgt_double_ray *ray, double side, double middle[3], double *r)
 {
     const bool sphere = q->kind == CGT_KIND_SPHERES;
     *r = (double)(sphere ? q->sphere.r : q->capsule.r);
-    middle[0] = (double)q->sphere.x;
-    middle[1] = (double)q->sphere.y;
-    middle[2] = (double)q->sphere.z;
+    middle[0] = (double)q->sphere.x - ray->org[0];
+    middle[1] = (double)q->sphere.y - ray->org[1];
+    middle[2] = (double)q->sphere.z - ray->org[2];
     if (!sphere)
         find_middle(&q->capsule, ray, side, middle);
 }
@@ -83,13 +87,11 @@ static void find_sphere(const cgt_primitive *q, const cgt_double_ray *ray, doubl
 /* The roots of a line and a sphere: middle - half and middle + half, half 0 where rounding leaves none. */
 static void find_roots(const double center[3], double r, const cgt_double_ray *ray, double *middle, double *half)
 {
-    double from[3], nearest[3];
-    for (int a = 0; a < 3; a++)
-        from[a] = ray->org[a] - center[a];
+    double nearest[3];
     const double square = dot(ray->dir, ray->dir);
-    *middle = -dot(from, ray->dir) / square;
+    *middle = dot(center, ray->dir) / square;
     for (int a = 0; a < 3; a++)
-        nearest[a] = from[a] + *middle * ray->dir[a];
+        nearest[a] = *middle * ray->dir[a] - center[a];
     const double rest = r * r - dot(nearest, nearest);
     *half = rest > 0.0 ? sqrt(rest / square) : 0.0;
 }
@@ -120,10 +122,10 @@ static double round_t(const cgt_primitive *q, const cgt_double_ray *ray, float t
     if (!surface->front)
         root = find_root(q, ray, 1, &far_middle);
     for (int a = 0; a < 3; a++)
-        place[a] = ray->org[a] + root * ray->dir[a];
+        place[a] = root * ray->dir[a];
     surface->u = 0;
     if (q->kind == CGT_KIND_CAPSULES)
-        surface->u = find_nearest(&q->capsule, place, center);
+        surface->u = find_nearest(&q->capsule, ray, place, center);
     else
         find_sphere(q, ray, 0, center, &r);
     for (int a = 0; a < 3; a++)

@@ -261,4 +261,29 @@ TEST(ranges_are_clipped)
     planes_free(&whole);
 }
 
+/* cgt_camera_get_rays: the rays of cgt_camera_get_ray. */
+TEST(rectangles_have_their_rays)
+{
+    enum { WIDTH = 37, HEIGHT = 23, STRIDE = 28 };
+    static char memory[WIDTH * HEIGHT * STRIDE];
+    float *const org[3] = {(float *)(void *)memory, (float *)(void *)(memory + 4), (float *)(void *)(memory + 8)};
+    float *const dir[3] = {(float *)(void *)(memory + 12), (float *)(void *)(memory + 16),
+                           (float *)(void *)(memory + 20)};
+    const uint32_t rectangle[][4] = {
+        {0, 0, WIDTH, HEIGHT}, {5, 7, 1, 1}, {36, 22, 1, 1}, {3, 0, 11, 23}, {37, 23, 0, 0}};
+    cgt_camera camera;
+    cgt_camera_init(&camera);
+    for (size_t k = 0; k < 2 * TEST_COUNT(rectangle); k++) {
+        const uint32_t *at = rectangle[k / 2], x = at[0], y = at[1], columns = at[2], rows = at[3];
+        camera.projection = k % 2 ? CGT_PROJECTION_ORTHOGRAPHIC : CGT_PROJECTION_PERSPECTIVE;
+        assert_int_equal(cgt_camera_get_rays(&camera, WIDTH, HEIGHT, x, y, columns, rows, STRIDE, org, dir), CGT_OK);
+        for (uint32_t i = 0; i < columns * rows; i++) {
+            float ray[2][3];
+            assert_int_equal(
+                cgt_camera_get_ray(&camera, WIDTH, HEIGHT, x + i % columns, y + i / columns, ray[0], ray[1]), CGT_OK);
+            assert_memory_equal(memory + (size_t)i * STRIDE, ray, sizeof ray);
+        }
+    }
+}
+
 SEEDED_SUITE("test_camera", open_context, close_context)

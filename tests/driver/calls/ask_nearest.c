@@ -142,21 +142,44 @@ static void judge_hits(driver_run *run, const decision *d, const full_hit *hit, 
     run->count[COUNT_ANSWERS] += 2 * run->rays;
 }
 
-static void check_alone(driver_run *run, const full_hit *hit)
+/* Whether a ray alone is told the surface of a sphere or a capsule that its hit is on. */
+static bool is_on_surface(const driver_run *run, uint32_t i, const cgt_hit *h)
 {
+    uint32_t at = 0;
+    return h->primitive == CGT_INVALID_ID ? h->surface == CGT_SURFACE_NEAR
+                                          : judge_next(&run->scene, &run->pool, &run->right[i], &at, h->geometry,
+                                                       h->primitive, (int)h->surface, h->t) >= 0;
+}
+
+static bool ask_alone(driver_run *run, const cgt_single_ray *ray, const cgt_trace_options *options, cgt_hit *hit,
+                      bool *any)
+{
+    memset(hit, 0x55, sizeof *hit);
+    return driver_succeeds(run, cgt_trace_ray(run->setup.scene, ray, hit, options), "cgt_trace_ray") &&
+           driver_succeeds(run, cgt_occluded_ray(run->setup.scene, ray, any, options), "cgt_occluded_ray");
+}
+
+/* Rays one by one have the bits and the counts of the array, with options and without, which is a way of its own. */
+static void check_alone(driver_run *run, const decision *d, const full_hit *hit)
+{
+    const bool fast = d->precision == CGT_PRECISION_FAST;
     for (uint32_t i = random_below(&run->scene.random, 3); i < run->rays; i += 3) {
+        cgt_trace_statistics counts = {.rays = 1};
+        const cgt_trace_options options = {.precision = d->precision, .statistics = &counts};
+        const bool without = !fast && i % 2, met = hit[i].primitive != CGT_INVALID_ID;
         cgt_single_ray single;
         cgt_hit alone;
         bool any;
-        if (!driver_single(&run->ray[i], &single) ||
-            !driver_succeeds(run, cgt_trace_ray(run->setup.scene, &single, &alone, NULL), "cgt_trace_ray") ||
-            !driver_succeeds(run, cgt_occluded_ray(run->setup.scene, &single, &any, NULL), "cgt_occluded_ray"))
+        if (!driver_single(&run->ray[i], &single) || !ask_alone(run, &single, without ? NULL : &options, &alone, &any))
             continue;
         const full_hit got = full_hit_of(&alone);
         run->count[COUNT_ANSWERS] += 2;
-        if (memcmp(&got, &hit[i], sizeof got) != 0 || any != (hit[i].primitive != CGT_INVALID_ID))
-            driver_fail(run, &run->ray[i], "cgt_trace_ray", "one ray is %d.%d at %a, occluded %d, not as in the array",
-                        (int)got.geometry, (int)got.primitive, (double)got.t, any);
+        if (memcmp(&got, &hit[i], sizeof got) != 0 || any != met || (!fast && !is_on_surface(run, i, &alone)) ||
+            counts.rays != 1 || (!without && counts.hits != met))
+            driver_fail(run, &run->ray[i], "cgt_trace_ray",
+                        "one ray is %d.%d at %a, surface %u, occluded %d, %llu hits of %llu, not as in the array",
+                        (int)got.geometry, (int)got.primitive, (double)got.t, alone.surface, any,
+                        (unsigned long long)counts.hits, (unsigned long long)counts.rays);
     }
 }
 
@@ -190,8 +213,9 @@ static void ask(driver_run *run)
         if (!call_arrays(run, d, hit, occluded))
             return;
         judge_hits(run, d, hit, occluded);
+        if (d->triangle_test == CGT_TRIANGLE_TEST_AUTO)
+            check_alone(run, d, hit);
     }
-    check_alone(run, hit);
     if (random_below(r, 4) == 0)
         check_ids(run, hit);
 }

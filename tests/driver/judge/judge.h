@@ -10,7 +10,7 @@
 #include "support/oracle/oracle_filter.h"
 #include "support/random.h"
 
-#define JUDGE_PRIMITIVES 8192u
+#define JUDGE_PRIMITIVES 18432u
 #define JUDGE_GEOMETRIES 9u
 #define JUDGE_KINDS 3
 
@@ -36,6 +36,9 @@ typedef struct judge_scene {
     judge_geometry geometry[JUDGE_GEOMETRIES];
     int low, high; /* coordinates are multiples of 2^low, and below 2^high */
 } judge_scene;
+
+/* Finds bounds and bits, when geometries and primitives are there. */
+void judge_scene_measure(judge_scene *s);
 
 /* Lets [low, high) hold the exponents of a number's bits. */
 void judge_widen_bits(float f, int *low, int *high);

@@ -30,6 +30,7 @@ extern const scene_group cloud_scenes, soup_scenes, mesh_scenes, band_scenes;
 extern const scene_group capsule_scenes; /* a few, for rays at their seams and silhouettes */
 extern const scene_group long_scenes;    /* that rays hit more often than a list holds */
 extern const scene_group case_scenes;    /* the hard cases by name, for rays of their own */
+extern const scene_group sheet_scenes;   /* neighbours in order: clusters */
 extern const scene_group large_scenes;   /* thousands of primitives: builders use several tasks */
 extern const scene_group flat_scenes, dense_scenes, speck_scenes; /* for rays in planes, to lamps, through points */
 

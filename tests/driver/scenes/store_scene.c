@@ -31,8 +31,11 @@ void judge_widen_bits(float f, int *low, int *high)
     *high = h > *high ? h : *high;
 }
 
-static void find_bits(judge_scene *s)
+void judge_scene_measure(judge_scene *s)
 {
+    for (uint32_t i = 0; i < s->count; i += ORACLE_BLOCK)
+        oracle_bound(s->primitive + i, s->count - i < ORACLE_BLOCK ? s->count - i : ORACLE_BLOCK,
+                     &s->bounds[i / ORACLE_BLOCK]);
     s->low = 200;
     s->high = -200;
     for (uint32_t i = 0; i < s->count; i++)
@@ -90,16 +93,6 @@ bool judge_is_broken(const oracle_primitive *p)
     return p->kind != ORACLE_TRIANGLE && p->data[p->kind == ORACLE_SPHERE ? 3 : 6] < 0;
 }
 
-static void store(scene_heap *h)
-{
-    judge_scene *s = h->scene;
-    make_geometries(h);
-    for (uint32_t i = 0; i < s->count; i += ORACLE_BLOCK)
-        oracle_bound(s->primitive + i, s->count - i < ORACLE_BLOCK ? s->count - i : ORACLE_BLOCK,
-                     &s->bounds[i / ORACLE_BLOCK]);
-    find_bits(s);
-}
-
 /* ---- scenes ---- */
 
 /* Of a scene of any magnitude: that of one of its primitives. */
@@ -141,7 +134,8 @@ void scene_make(judge_scene *s, test_random random, const scene_group *const *gr
     h.r = &s->random;
     h.n = 1 + random_below(h.r, n);
     group->make(&h, family);
-    store(&h);
+    make_geometries(&h);
+    judge_scene_measure(s);
     if (s->scale == 0)
         s->scale = scale_of(&h);
 }

@@ -215,77 +215,43 @@ void fuzz_check_same(const fuzz_model *m, const fuzz_answers *a, cgt_precision p
 
 /* ---- the truth ---- */
 
-/* Half an ulp of rounding, plus the error before rounding that the header allows. */
-#define T_ULP 0.5101
-#define EXACT_ULP 1.0001
-
-static void add_truth(oracle_scene *scene, uint32_t id, const fuzz_geometry *g)
+static void add_truth(judge_scene *s, uint32_t id, const fuzz_geometry *g)
 {
-    const uint32_t count = fuzz_count(g);
-    float(*sphere)[4] = fuzz_allocate(count * sizeof *sphere);
-    float(*triangle)[3][3] = fuzz_allocate(count * sizeof *triangle);
-    float(*capsule)[7] = fuzz_allocate(count * sizeof *capsule);
-    for (uint32_t i = 0; i < count; i++) {
+    judge_geometry *const to = &s->geometry[id];
+    *to = (judge_geometry){.kind = (oracle_kind)g->kind, .first = s->count, .mask = fuzz_mask_of(g)};
+    to->count = g->used ? fuzz_count(g) : 0;
+    for (uint32_t i = 0; i < to->count; i++) {
         const cgt_primitive p = fuzz_primitive_at(g, i);
-        switch (g->kind) {
-        case CGT_KIND_SPHERES: memcpy(sphere[i], &p.sphere, sizeof sphere[i]); break;
-        case CGT_KIND_TRIANGLES: memcpy(triangle[i], &p.triangle, sizeof triangle[i]); break;
-        case CGT_KIND_CAPSULES:
-            memcpy(capsule[i], p.capsule.p, 3 * sizeof(float));
-            memcpy(capsule[i] + 3, p.capsule.q, 3 * sizeof(float));
-            capsule[i][6] = p.capsule.r;
-            break;
-        }
+        const float *const number = &p.sphere.x;
+        oracle_primitive *const q = &s->primitive[s->count++];
+        *q = (oracle_primitive){.kind = to->kind, .geometry = id, .primitive = i};
+        for (int k = 0; k < oracle_floats(q->kind); k++)
+            q->data[k] = number[k];
     }
-    switch (g->kind) {
-    case CGT_KIND_SPHERES: oracle_scene_add_spheres(scene, id, (const float(*)[4])sphere, count); break;
-    case CGT_KIND_TRIANGLES:
-        oracle_scene_add_triangles(scene, id, (const float(*)[3])triangle, 3 * count, NULL, count);
-        break;
-    case CGT_KIND_CAPSULES: oracle_scene_add_capsules(scene, id, (const float(*)[7])capsule, count); break;
-    }
-    free(sphere);
-    free(triangle);
-    free(capsule);
 }
 
-oracle_scene fuzz_truth(const fuzz_model *m)
+void fuzz_check_truth(const fuzz_model *m, const judge_ray *rays, uint32_t count, const full_hit *hit)
 {
-    oracle_scene scene = {0};
+    static judge_scene scene;
+    static judge_pool pool;
+    scene.count = pool.count = 0;
+    scene.geometries = FUZZ_GEOMETRIES;
     for (uint32_t id = 0; id < FUZZ_GEOMETRIES; id++)
-        if (m->geometry[id].used)
-            add_truth(&scene, id, &m->geometry[id]);
-    return scene;
-}
-
-static void check_values(const fuzz_model *m, const truth_ray *ray, const full_hit *h, const oracle_hit *truth,
-                         uint32_t i)
-{
-    HIT_CHECK(oracle_ulp(truth->t, h->t) <= T_ULP, "ray %u: t %a is %g ulp off", i, (double)h->t,
-              oracle_ulp(truth->t, h->t));
-    for (int k = 0; k < 2; k++)
-        HIT_CHECK(oracle_ulp(truth->uv[k], h->uv[k]) <= EXACT_ULP, "ray %u: EXACT: %c %a is %g ulp off", i, "uv"[k],
-                  (double)h -> uv[k], oracle_ulp(truth->uv[k], h->uv[k]));
-    for (int k = 0; k < 3 && m->geometry[h->geometry].kind == CGT_KIND_TRIANGLES; k++)
-        HIT_CHECK(oracle_ulp(truth->normal[k], h->normal[k]) <= EXACT_ULP, "ray %u: EXACT: normal %a is %g ulp off", i,
-                  (double)h->normal[k], oracle_ulp(truth->normal[k], h->normal[k]));
-}
-
-void fuzz_check_truth(const fuzz_model *m, const fuzz_answers *a)
-{
-    oracle_scene scene = fuzz_truth(m);
-    for (uint32_t i = 0; i < a->count; i++) {
-        const full_hit *h = &a->exact[i];
-        const truth_ray *ray = &a->ray[i];
-        oracle_hit truth;
-        const oracle_verdict verdict = oracle_judge(&scene, ray, h->geometry, h->primitive, &truth);
-        HIT_CHECK(verdict == ORACLE_RIGHT, "ray %u: %s: %u.%u at %a", i,
-                  verdict == ORACLE_MISSED     ? "missed"
-                  : verdict == ORACLE_INVENTED ? "invented"
-                                               : "another primitive is closer",
-                  h->geometry, h->primitive, (double)h->t);
-        if (h->geometry != CGT_INVALID_ID)
-            check_values(m, ray, h, &truth, i);
+        add_truth(&scene, id, &m->geometry[id]);
+    judge_scene_measure(&scene);
+    for (uint32_t i = 0; i < count; i++) {
+        const full_hit *h = &hit[i];
+        const truth_ray *ray = &rays[i].line;
+        const judge_answer answer = {
+            h->t, h->primitive, h->geometry, {h->normal[0], h->normal[1], h->normal[2]}, {h->uv[0], h->uv[1]}};
+        const judge_truth right = judge_trace(&scene, &rays[i], JUDGE_NEAREST, true, &pool);
+        const char *const wrong = judge_nearest(&scene, &pool, &right, &rays[i], false, &answer);
+        HIT_CHECK(!wrong, "ray %u, mask %u, skips %d.%d: %s: %u.%u at %a", i, rays[i].mask, (int)rays[i].skip_geometry,
+                  (int)rays[i].skip_primitive, wrong, h->geometry, h->primitive, (double)h->t);
     }
-    oracle_scene_free(&scene);
+}
+
+judge_ray fuzz_judge_ray(const truth_ray *ray)
+{
+    return (judge_ray){.line = *ray, .skip_primitive = CGT_INVALID_ID, .skip_geometry = CGT_INVALID_ID};
 }

@@ -6,7 +6,7 @@
 #define FUZZ_CHECK_H
 
 #include "fuzz/scene/fuzz_model.h"
-#include "support/oracle/oracle.h"
+#include "driver/judge/judge.h"
 #include "support/random.h"
 #include "support/ray_arrays.h"
 
@@ -46,11 +46,11 @@ void fuzz_check_counts(const fuzz_answers *a, const full_hit *hit, const cgt_tra
 /* `other` holds the hits of the default options, unless it is FAST. */
 void fuzz_check_same(const fuzz_model *m, const fuzz_answers *a, cgt_precision precision_of_other);
 
-/* All primitives for the judge, in whole numbers, of the tests. Ends with oracle_scene_free. */
-oracle_scene fuzz_truth(const fuzz_model *m);
+/* Judges the hits of the default options by whole numbers, as tests/driver does. */
+void fuzz_check_truth(const fuzz_model *m, const judge_ray *rays, uint32_t count, const full_hit *hit);
 
-/* Judges the hits of the default options by it. */
-void fuzz_check_truth(const fuzz_model *m, const fuzz_answers *a);
+/* A ray that sees everything. */
+judge_ray fuzz_judge_ray(const truth_ray *ray);
 
 /* Whether a ray is invalid, and so hits nothing. */
 bool fuzz_ray_is_invalid(const truth_ray *ray);

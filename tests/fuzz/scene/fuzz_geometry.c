@@ -332,7 +332,7 @@ bool fuzz_indices_are_good(const fuzz_geometry *g)
 
 /* ---- calls ---- */
 
-cgt_result fuzz_add_to(cgt_scene *scene, const fuzz_geometry *g, uint32_t *id)
+static cgt_result call_add(cgt_scene *scene, const fuzz_geometry *g, uint32_t *id)
 {
     return g->kind == CGT_KIND_TRIANGLES  ? cgt_scene_set_triangles(scene, id, &g->triangles)
            : g->kind == CGT_KIND_CAPSULES ? cgt_scene_set_capsules(scene, id, &g->capsules)
@@ -361,11 +361,11 @@ void fuzz_add(fuzz_model *m)
     if (lowest == FUZZ_GEOMETRIES)
         return;
     const bool bad = make_geometry(m, &g);
-    cgt_result result = fuzz_add_to(m->scene, &g, &id);
+    cgt_result result = call_add(m->scene, &g, &id);
     if (result == CGT_ERROR_OUT_OF_MEMORY) {
         fuzz_check_error(m, result);
         FUZZ_CHECK(id == CGT_INVALID_ID, "add: an id after an error");
-        result = fuzz_add_to(m->scene, &g, &id);
+        result = call_add(m->scene, &g, &id);
     }
     FUZZ_CHECK(bad == (result != CGT_OK), "add: %s", cgt_get_result_string(result));
     if (result == CGT_OK) {

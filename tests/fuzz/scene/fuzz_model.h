@@ -50,15 +50,11 @@ bool fuzz_is_valid(const cgt_primitive *p);
 
 uint32_t fuzz_mask_of(const fuzz_geometry *g);
 bool fuzz_has(const fuzz_model *m, cgt_kind kind);
-cgt_result fuzz_add_to(cgt_scene *scene, const fuzz_geometry *g, uint32_t *id);
 
 /* Whether all indices are below the number of vertices, and all types below that of radii. */
 bool fuzz_indices_are_good(const fuzz_geometry *g);
 
 /* ---- fuzz_scene.c ---- */
-
-/* The name of one of the build's variants. */
-const char *fuzz_variant(uint8_t number);
 
 /* Checks a failed call: it has a message, and out of memory implies a refused allocation. */
 void fuzz_check_error(fuzz_model *m, cgt_result result);

@@ -1,12 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Arrays of rays: closest hit and any hit, with any options and strides, compared with another variant in a grid and
- * with the judge in whole numbers, which shares nothing with the library. */
+ * Arrays of rays: closest hit and any hit, with any options and strides, masks and skipped primitives, judged by whole
+ * numbers. That variants and structures agree, the target `hits` asks. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "driver/driver.h"
 #include "fuzz/scene/fuzz_check.h"
 
 #define MOST_RAYS 40u
@@ -177,6 +178,14 @@ static void trace_defaults(fuzz_model *m, const fuzz_answers *a)
     fuzz_check_counts(a, a->exact, &statistics, &research);
 }
 
+static void judge_defaults(const fuzz_model *m, const fuzz_answers *a)
+{
+    judge_ray ray[MOST_RAYS];
+    for (uint32_t i = 0; i < a->count; i++)
+        ray[i] = fuzz_judge_ray(&a->ray[i]);
+    fuzz_check_truth(m, ray, a->count, a->exact);
+}
+
 static void check_any_hit(fuzz_model *m, const fuzz_answers *a, const cgt_rays *rays, const test_trace_options *o)
 {
     uint8_t *occluded = memset(fuzz_allocate(a->count), 0x77, a->count);
@@ -191,89 +200,42 @@ static void check_any_hit(fuzz_model *m, const fuzz_answers *a, const cgt_rays *
 
 /* ---- masks and ignored primitives ---- */
 
-/* The kind of query for a ray, chosen by its own bits: no input bytes are consumed. */
-typedef struct filters {
-    uint32_t mask[MOST_RAYS], primitive[MOST_RAYS], geometry[MOST_RAYS];
-} filters;
-
-static void make_filters(const fuzz_answers *a, filters *f)
+/* What a ray sees, chosen by its own bits: no input bytes are consumed. */
+static judge_ray filtered_ray(const truth_ray *line, uint32_t i, const full_hit *exact)
 {
     static const uint32_t masks[] = {UINT32_MAX, UINT32_MAX, UINT32_MAX, 1, 2, 3, 0x80000000u, 0};
-    for (uint32_t i = 0; i < a->count; i++) {
-        uint32_t hash = i, word;
-        for (int k = 0; k < 6; k++) {
-            memcpy(&word, (const float *)(const void *)&a->ray[i] + k, sizeof word);
-            hash = (hash ^ word) * 0x9e3779b1u;
-            hash ^= hash >> 15;
-        }
-        f->mask[i] = masks[hash & 7];
-        f->primitive[i] = a->exact[i].primitive;
-        f->geometry[i] = a->exact[i].geometry;
-        if ((hash >> 3 & 3) == 0)
-            f->primitive[i] = (hash >> 5 & 7) == 7 ? CGT_INVALID_ID - 1 : hash >> 5 & 15;
-        if ((hash >> 9 & 3) == 0)
-            f->geometry[i] = (hash >> 11 & 7) == 7 ? CGT_INVALID_ID : hash >> 11 & 7;
+    judge_ray ray = {*line, 0, exact->primitive, exact->geometry};
+    uint32_t hash = i, word;
+    for (int k = 0; k < 6; k++) {
+        memcpy(&word, (const float *)(const void *)line + k, sizeof word);
+        hash = (hash ^ word) * 0x9e3779b1u;
+        hash ^= hash >> 15;
     }
-}
-
-static uint32_t all_if_zero(uint32_t mask) { return mask ? mask : UINT32_MAX; }
-
-/* What is wrong with the hit of a ray among the primitives that it sees; NULL: nothing. left: room for all. */
-static const char *judge_left(const fuzz_model *m, const oracle_scene *whole, const truth_ray *ray, const filters *f,
-                              uint32_t of, const full_hit *h, oracle_primitive *left)
-{
-    oracle_scene seen = {.primitive = left};
-    for (uint32_t k = 0; k < whole->count; k++) {
-        const oracle_primitive *p = &whole->primitive[k];
-        if (fuzz_mask_of(&m->geometry[p->geometry]) & all_if_zero(f->mask[of]) &&
-            !(p->geometry == f->geometry[of] && p->primitive == f->primitive[of]))
-            left[seen.count++] = *p;
-    }
-    return oracle_check(&seen, ray, h->geometry, h->primitive, h->t);
+    ray.mask = masks[hash & 7];
+    if ((hash >> 3 & 3) == 0)
+        ray.skip_primitive = (hash >> 5 & 7) == 7 ? CGT_INVALID_ID - 1 : hash >> 5 & 15;
+    if ((hash >> 9 & 3) == 0)
+        ray.skip_geometry = (hash >> 11 & 7) == 7 ? CGT_INVALID_ID : hash >> 11 & 7;
+    return ray;
 }
 
 static void trace_filtered(fuzz_model *m, const fuzz_answers *a, const cgt_trace_options *o)
 {
-    filters f;
+    judge_ray ray[MOST_RAYS] = {{.mask = 0}};
     full_hit hit[MOST_RAYS];
     uint8_t occluded[MOST_RAYS];
-    uint32_t primitive[MOST_RAYS], geometry[MOST_RAYS];
-    float number[INPUTS][MOST_RAYS], t[MOST_RAYS];
-    make_filters(a, &f);
     for (uint32_t i = 0; i < a->count; i++)
-        for (int k = 0; k < INPUTS; k++)
-            number[k][i] = ((const float *)(const void *)&a->ray[i])[k];
-    const cgt_rays rays = {.count = a->count,
-                           .org = {number[0], number[1], number[2]},
-                           .dir = {number[3], number[4], number[5]},
-                           .t_min = number[6],
-                           .t_max = number[7],
-                           .mask = f.mask,
-                           .skip_primitive = f.primitive,
-                           .skip_geometry = f.geometry};
-    const cgt_hits hits = {.t = t, .primitive = primitive, .geometry = geometry};
+        ray[i] = filtered_ray(&a->ray[i], i, &a->exact[i]);
+    const cgt_rays rays = driver_ray_array(ray, a->count);
+    const cgt_hits hits = hit_array(hit);
     FUZZ_MUST(m, cgt_trace_rays(m->scene, &rays, &hits, o), true);
     FUZZ_MUST(m, cgt_occluded_rays(m->scene, &rays, occluded, o), true);
-    oracle_scene whole = fuzz_truth(m);
-    oracle_primitive *left = fuzz_allocate(whole.count * sizeof *left);
-    for (uint32_t i = 0; i < a->count; i++) {
-        hit[i] = (full_hit){.t = t[i], .primitive = primitive[i], .geometry = geometry[i]};
+    for (uint32_t i = 0; i < a->count; i++)
         FUZZ_CHECK(occluded[i] == (hit[i].primitive != CGT_INVALID_ID), "ray %u, filtered: any hit says %u", i,
                    occluded[i]);
-        FUZZ_CHECK(hit[i].geometry == CGT_INVALID_ID ||
-                       (hit[i].geometry < FUZZ_GEOMETRIES &&
-                        fuzz_mask_of(&m->geometry[hit[i].geometry]) & all_if_zero(f.mask[i])),
-                   "ray %u: hits geometry %u, which its mask excludes", i, hit[i].geometry);
-        FUZZ_CHECK(hit[i].geometry == CGT_INVALID_ID || hit[i].geometry != f.geometry[i] ||
-                       hit[i].primitive != f.primitive[i],
-                   "ray %u: hits the primitive that it skips", i);
-        const char *wrong =
-            o->precision == CGT_PRECISION_FAST ? NULL : judge_left(m, &whole, &a->ray[i], &f, i, &hit[i], left);
-        FUZZ_CHECK(!wrong, "ray %u, filtered: %s: %u.%u at %a", i, wrong, hit[i].geometry, hit[i].primitive,
-                   (double)hit[i].t);
-    }
-    free(left);
-    oracle_scene_free(&whole);
+    fuzz_check_hits(m, a, hit, o->precision);
+    if (o->precision != CGT_PRECISION_FAST)
+        fuzz_check_truth(m, ray, a->count, hit);
 }
 
 /* ---- all of it ---- */
@@ -303,65 +265,6 @@ static void trace_other(fuzz_model *m, const fuzz_answers *a, uint32_t ranges)
     free_arrays(&out);
 }
 
-/* ---- the same by another variant, in a grid, or a BVH where there are capsules ---- */
-
-/* Adds the geometries under their ids; empty geometries fill the gaps. */
-static void copy_scene(const fuzz_model *m, cgt_scene *scene)
-{
-    const fuzz_geometry nothing = {0};
-    for (uint32_t i = 0; i < FUZZ_GEOMETRIES; i++) {
-        const fuzz_geometry *g = &m->geometry[i];
-        uint32_t id = CGT_INVALID_ID;
-        const cgt_result result = fuzz_add_to(scene, g->used ? g : &nothing, &id);
-        FUZZ_CHECK(result == CGT_OK && id == i, "a second scene cannot be made: %s", cgt_get_result_string(result));
-    }
-    FUZZ_CHECK(cgt_scene_commit(scene) == CGT_OK, "a second scene cannot be committed");
-}
-
-static void trace_elsewhere(fuzz_model *m, const fuzz_answers *a, const char *variant, const uint32_t resolution[3])
-{
-    cgt_context_options options;
-    test_scene_options grid;
-    cgt_context *context;
-    cgt_scene *scene;
-    cgt_context_options_init(&options);
-    options.variant = variant;
-    options.threads = 1;
-    grid = (test_scene_options){.structure = CGT_STRUCTURE_BVH};
-    if (!fuzz_has(m, CGT_KIND_CAPSULES)) {
-        grid.structure = CGT_STRUCTURE_QUEUE_GRID;
-        memcpy(grid.resolution, resolution, sizeof grid.resolution);
-    }
-    const cgt_result result = cgt_context_create(&options, &context);
-    FUZZ_CHECK(result == CGT_OK || result == CGT_ERROR_UNSUPPORTED, "context: %s", cgt_get_result_string(result));
-    if (result != CGT_OK) {
-        cgt_context_release(context);
-        return;
-    }
-    FUZZ_CHECK(cgt_scene_create(context, SCENE_OPTIONS(&grid), &scene) == CGT_OK, "no second scene");
-    copy_scene(m, scene);
-    FUZZ_CHECK(trace_array(scene, a->ray, a->count, a->other, NULL) == CGT_OK, "the second scene cannot be traced");
-    fuzz_check_same(m, a, CGT_PRECISION_EXACT);
-    cgt_scene_release(scene);
-    cgt_context_release(context);
-}
-
-/* A BVH, kd-tree or loose grid is always compared with a queue grid, of a few cells unless the bytes give a resolution;
- * a grid only if they request it. */
-static void compare_with_grid(fuzz_model *m, const fuzz_answers *a, bool asked)
-{
-    uint32_t resolution[3] = {3, 2, 4};
-    const cgt_research_scene_statistics s = research_of(m->scene);
-    const char *variant = NULL;
-    if (asked) {
-        variant = fuzz_variant(fuzz_byte(&m->bytes));
-        for (int k = 0; k < 3; k++)
-            resolution[k] = 1 + fuzz_below(&m->bytes, 9);
-    }
-    if (asked || s.kd_leaves || s.levels)
-        trace_elsewhere(m, a, variant, resolution);
-}
-
 void fuzz_trace_rays(fuzz_model *m)
 {
     truth_ray ray[MOST_RAYS];
@@ -375,9 +278,7 @@ void fuzz_trace_rays(fuzz_model *m)
     } else {
         trace_defaults(m, &a);
         trace_other(m, &a, ranges);
-        compare_with_grid(m, &a, how & 8);
-        if (how & 16)
-            fuzz_check_truth(m, &a);
+        judge_defaults(m, &a);
     }
     fuzz_answers_free(&a);
 }

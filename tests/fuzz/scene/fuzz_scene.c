@@ -35,7 +35,8 @@ void fuzz_check_error(fuzz_model *m, cgt_result result)
 
 /* ---- context and scene ---- */
 
-const char *fuzz_variant(uint8_t number)
+/* The name of one of the build's variants. */
+static const char *any_variant(uint8_t number)
 {
     const char *const *const names = cgt_get_variant_names();
     uint32_t variants = 0;
@@ -53,7 +54,7 @@ static bool create_context(fuzz_model *m)
     o.threads = threads < 192 ? 1 : threads < 250 ? 1 + threads % 3 : 2000;
     if (threads % 4 == 3)
         o.tasks.run = run_backwards;
-    o.variant = variant < 64 ? NULL : variant < 250 ? fuzz_variant(variant) : "none";
+    o.variant = variant < 64 ? NULL : variant < 250 ? any_variant(variant) : "none";
     o.memory = fuzz_memory_hooks(&m->memory);
     o.log = (cgt_log_hook){m, on_log};
     const bool legal = o.threads <= 1024 && variant < 250;
