@@ -14,6 +14,7 @@
 
 #include "view/view_camera.h"
 #include "web/web_state.h"
+#include "web/web_text.h"
 
 web_state web;
 
@@ -55,26 +56,6 @@ EMSCRIPTEN_KEEPALIVE int web_start(uint32_t threads)
 }
 
 /* ---- Options ------------------------------------------------------------------------------------------------ */
-
-/* As JSON has it. */
-static void print_string(FILE *to, const char *before, const char *text)
-{
-    fputs(before, to);
-    fputs(text ? "\"" : "null", to);
-    for (; text && *text; text++)
-        if ((unsigned char)*text < ' ')
-            fprintf(to, "\\u%04x", (unsigned)*text);
-        else
-            fprintf(to, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
-    if (text)
-        fputc('"', to);
-}
-
-static void print_text(FILE *to, const char *name, const char *text)
-{
-    fprintf(to, ",\"%s\":", name);
-    print_string(to, "", text);
-}
 
 /* A figure with one sphere that is kept: what it refuses this build cannot do. NULL: no memory. */
 static cgt_figure *create_probe(cgt_figure_frame **frame)
@@ -144,12 +125,12 @@ EMSCRIPTEN_KEEPALIVE const char *web_options(void)
         if (!has_option(probe, &o, without_text))
             continue;
         fprintf(to, "%s{\"kind\":\"%s\"", count++ ? "," : "[", kinds[o.kind]);
-        print_text(to, "name", o.name);
-        print_text(to, "group", o.group);
-        print_text(to, "value", o.value);
-        print_text(to, "help", o.help);
-        print_text(to, "words", o.words);
-        print_text(to, "otherwise", o.otherwise);
+        web_print_text(to, "name", o.name);
+        web_print_text(to, "group", o.group);
+        web_print_text(to, "value", o.value);
+        web_print_text(to, "help", o.help);
+        web_print_text(to, "words", o.words);
+        web_print_text(to, "otherwise", o.otherwise);
         if (o.kind == CGT_FIGURE_NUMBER || o.kind == CGT_FIGURE_WHOLE)
             fprintf(to, ",\"low\":%.9g,\"high\":%.9g", o.low, o.high);
         fprintf(to, ",\"optional\":%s,\"repeats\":%s}", o.is_optional ? "true" : "false", o.repeats ? "true" : "false");
@@ -337,6 +318,7 @@ EMSCRIPTEN_KEEPALIVE int web_open(const char *run, const char *topology, const c
     for (size_t i = 0; i < sizeof kept / sizeof kept[0]; i++)
         if (cgt_figure_get(web.figure, kept[i], why, sizeof why))
             snprintf(few + strlen(few), sizeof few - strlen(few), "%s = %.32s", kept[i], why);
+    web_forget_run();
     int failed = settings ? take_names(run, topology, mesh) : web_fail("out of memory for options");
     if (failed)
         close_file();
@@ -381,6 +363,7 @@ int web_seek(uint32_t number)
     }
     cgt_figure_frame_release(web.shown);
     web.shown = frame;
+    web_take_frame();
     return 0;
 }
 
@@ -489,7 +472,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_columns(void)
         return NULL;
     fputc('[', to);
     for (uint32_t i = 0; frame && i < frame->columns; i++) {
-        print_string(to, i ? "," : "", frame->column[i].name);
+        web_print_string(to, i ? "," : "", frame->column[i].name);
     }
     fputc(']', to);
     return fclose(to) ? NULL : web.columns;
@@ -592,42 +575,4 @@ EMSCRIPTEN_KEEPALIVE const char *web_camera(void)
     cgt_figure_get_chosen(web.figure, "camera", web.message, sizeof web.message);
     web.message[strcspn(web.message, "\n")] = '\0';
     return web.message;
-}
-
-/* All that the figure knows of a primitive of the shown frame, in lines; "": it has none of that number. */
-EMSCRIPTEN_KEEPALIVE const char *web_describe(uint32_t element)
-{
-    free(web.told);
-    const size_t length = web.shown ? cgt_figure_describe(web.figure, element, NULL, 0) : 0;
-    web.told = malloc(length + 1);
-    if (!web.told)
-        return "out of memory";
-    web.told[0] = '\0';
-    if (length)
-        cgt_figure_describe(web.figure, element, web.told, length + 1);
-    return web.told;
-}
-
-/* ---- What a pixel shows ------------------------------------------------------------------------------------- */
-
-/* A sentence of it in web_message, "" where there is nothing. Returns the primitive's number, or -1. */
-EMSCRIPTEN_KEEPALIVE int web_pick(uint32_t x, uint32_t y)
-{
-    const int most = 3; /* lines without columns */
-    cgt_figure_hit hit;
-    char text[1024];
-    web.message[0] = '\0';
-    if (!web.shown || cgt_figure_set_camera(web.figure, &web.camera) || cgt_figure_pick(web.figure, x, y, &hit) ||
-        !hit.is_data)
-        return -1;
-    cgt_figure_describe(web.figure, hit.element, text, sizeof text);
-    size_t used = 0;
-    const char *c = text;
-    for (int line = 0; line < most && *c; line += *c++ == '\n')
-        if (*c == '\n' && c[1] && line + 1 < most)
-            used += (size_t)snprintf(web.message + used, sizeof web.message - used, ", ");
-        else if (*c != '\n' && !(*c == ' ' && c[1] == ' '))
-            web.message[used++] = *c;
-    web.message[used] = '\0';
-    return (int)hit.element;
 }

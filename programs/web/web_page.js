@@ -226,13 +226,31 @@
             return fail();
         tell('ready', {threads: started});
 
+        const places = cgt._malloc(64); // of marks
+        let told = -1, selection = ''; // the frame of which was told what was picked
+        const findMarks = () => [...new Float32Array(cgt.HEAPU8.buffer, places, 2 * cgt._web_marks(places))];
+        const tellAsked = () =>
+            tell('asked', {...JSON.parse(cgt.UTF8ToString(cgt._web_asked())), marks: findMarks()});
+        function tellSelected() {
+            const count = selection ? cgt.ccall('web_select', 'number', ['string'], [selection]) : 0;
+            tell('selected', {formula: selection, count, of: isOpen ? cgt._web_primitives() : 0, text: message()});
+        }
+
         function show(milliseconds) {
             const bytes = 4 * width * height, pixels = cgt._web_pixels();
             const old = spare.pop(), buffer = old && old.byteLength === bytes ? old : new ArrayBuffer(bytes);
             pending++; // a picture cannot be made of shared memory: a copy
             new Uint8Array(buffer).set(new Uint8Array(cgt.HEAPU8.buffer, pixels, bytes));
             const frame = cgt._web_frame(), primitives = cgt._web_primitives();
-            tell('picture', {buffer, width, height, frame, primitives, left, milliseconds}, [buffer]);
+            const marks = findMarks();
+            tell('picture', {buffer, width, height, frame, primitives, left, milliseconds, marks}, [buffer]);
+            if (frame !== told) { // what was picked and selected may have moved
+                told = frame;
+                if (marks.length)
+                    tellAsked();
+                if (selection)
+                    tellSelected();
+            }
         }
 
         // Adds a step of the style's light; a frame that is played has the first alone, where it is fast enough.
@@ -382,6 +400,15 @@
                 outdated = isOpen;
             },
             pick: (m) => { const id = isOpen ? cgt._web_pick(m.x, m.y) : -1; tell('picked', {id, text: message()}); },
+            ask: (m) => {
+                if (isOpen)
+                    cgt._web_ask(m.x, m.y);
+                tellAsked();
+            },
+            forgetPicks: () => { cgt._web_forget_picks(); tellAsked(); },
+            select: (m) => { selection = m.formula; tellSelected(); },
+            follow: (m) => tell('follow', {count: cgt.ccall('web_follow', 'number', ['string'], [m.formula]),
+                                           text: message()}),
             describe: (m) => tell('described', {text: cgt.ccall('web_describe', 'string', ['number'], [m.element])}),
             camera: () => tell('camera', {text: cgt.UTF8ToString(cgt._web_camera())}),
             memory: () => tell('memory', {bytes: cgt.HEAPU8.buffer.byteLength, used: cgt._web_used()}),
@@ -410,7 +437,7 @@
         const begin = performance.now();
         const page = window.cgtPage =
             {ready: 0, first: 0, pictures: 0, left: 0, milliseconds: 0, error: '', picked: null};
-        let playing = false, sliding = false, playsFirst = false, waiting = {}, doubts = [];
+        let playing = false, sliding = false, playsFirst = false, waiting = {}, doubts = [], latest = {};
         page.send = send;
         page.ask = (type, rest, answer) => new Promise((done) => { waiting[answer || type] = done; send(type, rest); });
 
@@ -424,17 +451,22 @@
             say,
         });
         const panels = {panel: {button: 'options', close: 'close', key: 'o'},
+                        select: {button: 'selecting', close: 'select-close', key: 'a'},
                         save: {button: 'saving', close: 'save-close', key: 's'}};
         // Opens or closes a panel; one at a time has the room.
         function openPanel(id, on) {
-            if (id === 'panel' && on && !panel.isBuilt())
-                send('options');
             for (const [other, {button}] of Object.entries(panels)) {
                 $(other).hidden = other !== id || !on;
                 $(button).setAttribute('aria-expanded', other === id && on);
             }
             $(on ? panels[id].close : panels[id].button).focus();
         }
+        const ask = createAsk({
+            send, openPanel,
+            put: (name, values) => send('put', {name, values}),
+            valuesOf: (name) => latest[name] || '',
+            hasOption: (name) => name in latest,
+        });
         const shownPanel = () => Object.keys(panels).find((id) => !$(id).hidden);
         function setPlaying(on) {
             playing = on;
@@ -447,6 +479,7 @@
             opened: (m) => {
                 page.opened = m.name;
                 panel.setColumns(m.columns);
+                ask.begin(m.columns);
                 say(doubts[0] || m.name + (m.count > 1 ? ` and ${m.count - 1} more` : '') +
                     (m.frames > 1 ? ': ' + m.frames + ' frames' : ''));
                 $('time').max = Math.max(0, m.frames - 1);
@@ -454,6 +487,8 @@
                     $(id).disabled = m.frames < 2;
                 setPlaying(playsFirst && m.frames > 1 && !matchMedia('(prefers-reduced-motion: reduce)').matches);
                 playsFirst = false;
+                if (!panel.isBuilt())
+                    send('options');
             },
             warning: (m) => { doubts.push(m.text); say(doubts.join('; ')); },
             error: (m) => { playing = false; $('play').textContent = 'Play'; say(m.text, true); },
@@ -468,15 +503,17 @@
                 page.left = m.left;
                 page.frame = m.frame;
                 page.milliseconds = m.milliseconds;
+                ask.showMarks(m.marks);
                 if (!sliding)
                     $('time').value = m.frame;
                 $('frame').textContent = 'frame ' + m.frame + ', ' + m.primitives.toLocaleString('en') + ' primitives';
                 send('shown', {buffer: m.buffer}, [m.buffer]);
             },
-            picked: (m) => { page.picked = m.id; say(m.text || ''); },
+            picked: (m) => { page.picked = m.id; },
             set: (m) => { if (m.text) say(m.text); },
             options: (m) => { if (!panel.isBuilt()) panel.build(m.rows); },
             values: (m) => {
+                latest = m.values;
                 panel.update(m.values);
                 if ('style' in m.values)
                     $('style').value = m.values.style.trim() || 'soft';
@@ -484,6 +521,9 @@
             put: (m) => panel.answer(m),
             camera: () => {},
             described: () => {},
+            asked: (m) => { ask.showPicks(m); ask.showMarks(m.marks); },
+            selected: (m) => ask.showSelected(m),
+            follow: (m) => ask.answerFollow(m),
             memory: () => {},
         };
         engine.onmessage = (event) => {
@@ -585,11 +625,16 @@
                 send(now.pan ? 'pan' : 'turn', {x, y});
             }
         });
+        const askAt = (x, y) => {
+            const place = {x: Math.floor(x), y: Math.floor(y)};
+            send('pick', place);
+            send('ask', place);
+        };
         const up = (e) => {
             const p = pointers.get(e.pointerId);
             pointers.delete(e.pointerId);
             if (p && !p.pan && e.type === 'pointerup' && travelled <= 3 * devicePixelRatio)
-                send('pick', {x: Math.floor(p.x), y: Math.floor(p.y)});
+                askAt(p.x, p.y);
         };
         canvas.addEventListener('pointerup', up);
         canvas.addEventListener('pointercancel', up);
@@ -601,6 +646,26 @@
             e.preventDefault();
             send('zoom', {...at(e), factor: Math.pow(1.0015, Math.max(-400, Math.min(400, e.deltaY)))});
         }, {passive: false});
+
+        // The same by keys, where the picture has the focus.
+        canvas.addEventListener('keydown', (e) => {
+            const step = 20 * devicePixelRatio, middle = {x: canvas.width / 2, y: canvas.height / 2};
+            const [x, y] = {ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step]}[e.key]
+                || [0, 0];
+            const factor = {'+': 0.8, '=': 0.8, '-': 1.25}[e.key];
+            if (e.ctrlKey || e.metaKey || e.altKey)
+                return;
+            if (x || y)
+                send(e.shiftKey ? 'pan' : 'turn', {x, y});
+            else if (factor)
+                send('zoom', {...middle, factor});
+            else if (e.key === 'Enter')
+                askAt(middle.x, middle.y);
+            else
+                return;
+            endHint();
+            e.preventDefault();
+        });
 
         // ---- Controls -----------------------------------------------------------------------------------------------
 
@@ -631,6 +696,8 @@
             const isUndo = (e.ctrlKey || e.metaKey) && !e.shiftKey && e.key === 'z';
             if (e.key === 'Escape' && shownPanel()) {
                 openPanel(shownPanel(), false);
+            } else if (e.key === 'Escape' && ask.hasPicks()) {
+                ask.forget();
             } else if (isUndo && !panel.isEdited(e.target)) { // else the field's own
                 panel.undo();
                 e.preventDefault();

@@ -10,6 +10,7 @@ const {execFileSync} = require('child_process');
 const {serve, start} = require('./chromium.js');
 const {test, count, read, settle, camera, pixels, compare, mouse, drag, style, drop, key, entryOf, edit, contrast, width,
        height, data} = require('./page_tools.js');
+const {testAsk} = require('./test_ask.js');
 const {testFiles} = require('./test_files.js');
 
 const [pages, , pick, out] = process.argv.slice(2);
@@ -235,7 +236,8 @@ async function main() {
         await page.until('cgtPage.picked !== null');
         assert.strictEqual(await page.run('cgtPage.picked'), asked);
         assert(asked >= 0);
-        assert.match(await page.run(`document.getElementById('message').textContent`), /^sphere \d+, type \d+, [A-Z][a-z]?, at /);
+        assert.match(await page.run(`document.querySelector('#picks summary').textContent`),
+            new RegExp(`^1sphere ${asked}, type \\d+, [A-Z][a-z]?$`));
     });
     await test('a compressed LAMMPS run, frames in any order', async () => {
         await style(page, 'plain');
@@ -348,6 +350,7 @@ async function main() {
     for (const size of [[1280, 720], [390, 844]])
         await testPanel(browser, url(isolated, small), size);
     await testFiles(browser, url(isolated, small));
+    await testAsk(browser, url(isolated, small), out);
     await test('inside another page the wheel acts after a click', async () => {
         const around = await browser.open(url(isolated, small));
         const inner = `<iframe src="${url(isolated, small)}" width="400" height="300"></iframe>`;
