@@ -314,8 +314,8 @@ EMSCRIPTEN_KEEPALIVE uint32_t web_marks(float *at)
         if (!web.shown || !asked.list[i].is_there)
             continue;
         place_of(&asked.list[i], place);
-        if (!view_camera_project(&web.camera, web.figure->options.picture.ortho, (float)web.width / (float)web.height, place,
-                                 at + 2 * i))
+        if (!view_camera_project(&web.camera, web.figure->options.picture.ortho, (float)web.width / (float)web.height,
+                                 place, at + 2 * i))
             at[2 * i] = at[2 * i + 1] = -1.0f;
     }
     return asked.count;
