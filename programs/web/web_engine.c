@@ -335,6 +335,14 @@ EMSCRIPTEN_KEEPALIVE int web_open(const char *run, const char *topology, const c
 /* Of the file, as far as it can be read. */
 EMSCRIPTEN_KEEPALIVE uint32_t web_frames(void) { return (uint32_t)web.frames; }
 
+/* How many frames before one it needs. */
+EMSCRIPTEN_KEEPALIVE uint32_t web_lead(void) { return (uint32_t)web.lead; }
+
+EMSCRIPTEN_KEEPALIVE int web_has_triangles(void)
+{
+    return web.shown && cgt_figure_frame_get_data(web.shown)->kind == CGT_TRAJECTORY_TRIANGLES;
+}
+
 EMSCRIPTEN_KEEPALIVE uint32_t web_frame(void)
 {
     return web.shown ? (uint32_t)cgt_figure_frame_get_data(web.shown)->number : 0;
@@ -401,11 +409,29 @@ static int set_lines_of(const char *name, const char *lines)
     return 0;
 }
 
-/* Opens the file anew for an option by which frames are read: where they are kept a figure refuses it. */
-static int read_anew(const char *name, const char *lines)
+/* Opens the files anew with these settings, at the same frame; what is refused changes nothing. */
+static int reopen(const char *settings, int keeps_camera)
 {
     const uint32_t number = web_frame();
     const cgt_camera camera = web.camera;
+    char why[sizeof web.message];
+    char *const before = get_settings(web.figure, NULL);
+    if (!before)
+        return web_fail("out of memory for options");
+    const int failed = open_files(settings);
+    memcpy(why, web.message, sizeof why);
+    if (!(failed && open_files(before)) && web_seek(number) == 0) { /* else there is no file any more */
+        if (failed || keeps_camera)
+            web.camera = camera;
+        memcpy(web.message, why, sizeof why);
+    }
+    free(before);
+    return failed;
+}
+
+/* For an option by which frames are read: where they are kept a figure refuses it. */
+static int read_anew(const char *name, const char *lines)
+{
     char *const before = get_settings(web.figure, NULL), *next = NULL;
     cgt_figure_frame *const shown = web.shown;
     cgt_figure *const figure = web.figure;
@@ -424,17 +450,30 @@ static int read_anew(const char *name, const char *lines)
     web.shown = shown;
     if (!failed && !next)
         failed = web_fail("out of memory for options");
-    if (!failed) {
-        char why[sizeof web.message];
-        failed = open_files(next);
-        memcpy(why, web.message, sizeof why);
-        if (!(failed && open_files(before)) && web_seek(number) == 0) { /* else there is no file any more */
-            web.camera = camera;
-            memcpy(web.message, why, sizeof why);
-        }
-    }
+    if (!failed)
+        failed = reopen(next, 1);
     free(before);
     free(next);
+    return failed ? -1 : 0;
+}
+
+int web_take(const char *settings)
+{
+    if (web.shown)
+        return reopen(settings, 0);
+    char why[sizeof web.message];
+    char *const before = get_settings(web.figure, NULL);
+    if (!before)
+        return web_fail("out of memory for options");
+    const int failed =
+        web_check(cgt_figure_unset(web.figure, NULL)) || web_check(cgt_figure_set_lines(web.figure, settings));
+    memcpy(why, web.message, sizeof why);
+    if (failed) {
+        cgt_figure_unset(web.figure, NULL);
+        cgt_figure_set_lines(web.figure, before);
+        memcpy(web.message, why, sizeof why);
+    }
+    free(before);
     return failed ? -1 : 0;
 }
 

@@ -95,6 +95,7 @@ function createFiles({unpack, openRun, openSettings, say, told}) {
 
     // The bytes of one file as the engine takes them.
     async function read({name, get}) {
+        const given = name;
         try {
             const packed = await (await get()).arrayBuffer();
             const head = new Uint8Array(packed, 0, Math.min(6, packed.byteLength));
@@ -110,7 +111,7 @@ function createFiles({unpack, openRun, openSettings, say, told}) {
                 bytes = framesOfObj(new TextDecoder().decode(bytes));
                 name = name.replace(/obj$/i, 'frames');
             }
-            return {name: name.replace(/[/\0\n]/g, '_').replace(/^-$/, '_'), bytes, doubt, isMesh};
+            return {name: name.replace(/[/\0\n]/g, '_').replace(/^-$/, '_'), bytes, doubt, isMesh, given};
         } catch (error) {
             throw new Error(`${name}: ${reason(error)}`);
         }
@@ -129,7 +130,9 @@ function createFiles({unpack, openRun, openSettings, say, told}) {
                 const nameOf = (file) => file ? file.name : '';
                 openRun({name: found.run[0].name, count: found.run.length, files, run: found.run.map(nameOf),
                          topology: nameOf(found.topology), mesh: nameOf(found.mesh),
-                         doubt: files.map((f) => f.doubt).find((doubt) => doubt) || ''});
+                         doubt: files.map((f) => f.doubt).find((doubt) => doubt) || '',
+                         given: {names: found.run.map((f) => f.given), topology: found.topology ? found.topology.given : '',
+                                 mesh: found.mesh ? found.mesh.given : ''}});
             }
             if (found.settings)
                 openSettings(found.settings.name, asked);

@@ -297,10 +297,32 @@
             return playing ? Math.max(0, due - performance.now()) : left !== 0 || outdated ? 0 : undefined;
         }
 
+        // Pictures to save: what else is asked for waits until they are made, or cancelled.
+        let making = false, cancelled = false, later = [];
+        async function make(m) {
+            const before = {width, height, frame: cgt._web_frame()};
+            making = true;
+            cancelled = playing = false;
+            let made = null, text = '';
+            try {
+                made = isOpen ? await makePictures(cgt, m, {tell, message, isCancelled: () => cancelled}) : null;
+            } catch (error) {
+                text = error.message;
+            }
+            making = false;
+            if (cgt._web_resize(before.width, before.height) < 0 || (isOpen && cgt._web_seek(before.frame) < 0))
+                fail();
+            outdated = isOpen;
+            tell('made', {...made, text});
+            for (const event of later.splice(0))
+                self.onmessage(event);
+            schedule(0);
+        }
+
         // Events come between steps. While the page shows a picture the next is made, and no more.
         function run() {
             scheduled = false;
-            if (pending > 1)
+            if (pending > 1 || making)
                 return;
             const wait = step();
             if (wait !== undefined && pending < 2)
@@ -340,7 +362,8 @@
                 return fail();
             frames = cgt._web_frames();
             const columns = JSON.parse(cgt.UTF8ToString(cgt._web_columns()));
-            tell('opened', {name, count, frames, columns});
+            const kind = cgt._web_has_triangles() ? 'triangles' : 'spheres';
+            tell('opened', {name, count, frames, columns, kind, lead: cgt._web_lead()});
             tellValues();
             for (let text; (text = cgt._web_warning());)
                 tell('warning', {text: cgt.UTF8ToString(text)});
@@ -409,12 +432,33 @@
             select: (m) => { selection = m.formula; tellSelected(); },
             follow: (m) => tell('follow', {count: cgt.ccall('web_follow', 'number', ['string'], [m.formula]),
                                            text: message()}),
+            make,
+            cancel: () => { cancelled = true; },
+            settings: () => tell('settings', {text: cgt.UTF8ToString(cgt._web_settings()), frame: cgt._web_frame()}),
+            load: (m) => { // a settings file
+                const path = '/' + m.name.replace(/[/\0]/g, '_');
+                const before = cgt.ccall('web_values', 'string', ['string'], [null]);
+                cgt.FS.writeFile(path, m.text);
+                const status = cgt.ccall('web_load', 'number', ['string'], [path]);
+                cgt.FS.unlink(path);
+                tell('loaded', {name: m.name, before, isRefused: status < 0, isUndo: m.isUndo,
+                                text: message().replace(path, m.name)});
+                if (isOpen && !cgt._web_frames())
+                    return fail();
+                tellValues();
+                outdated = isOpen;
+                return undefined;
+            },
             describe: (m) => tell('described', {text: cgt.ccall('web_describe', 'string', ['number'], [m.element])}),
             camera: () => tell('camera', {text: cgt.UTF8ToString(cgt._web_camera())}),
             memory: () => tell('memory', {bytes: cgt.HEAPU8.buffer.byteLength, used: cgt._web_used()}),
             shown: (m) => { pending--; spare.push(m.buffer); },
         };
         self.onmessage = (event) => {
+            if (making && !['cancel', 'shown', 'memory'].includes(event.data.type)) {
+                later.push(event);
+                return;
+            }
             try {
                 actions[event.data.type](event.data);
             } catch (error) { // out of memory, above all
@@ -436,8 +480,8 @@
         const send = (type, rest, transfer) => engine.postMessage({type, ...rest}, transfer || []);
         const begin = performance.now();
         const page = window.cgtPage =
-            {ready: 0, first: 0, pictures: 0, left: 0, milliseconds: 0, error: '', picked: null};
-        let playing = false, sliding = false, playsFirst = false, waiting = {}, doubts = [], latest = {};
+            {ready: 0, first: 0, pictures: 0, left: 0, milliseconds: 0, error: '', picked: null, loads: 0};
+        let playing = false, sliding = false, playsFirst = false, waiting = {}, doubts = [], latest = {}, opened = {};
         page.send = send;
         page.ask = (type, rest, answer) => new Promise((done) => { waiting[answer || type] = done; send(type, rest); });
 
@@ -448,6 +492,7 @@
         }
         const panel = createPanel($('panel'), {
             put: (name, values, isUndo) => send('put', {name, values, isUndo}),
+            load: (text) => send('load', {name: 'undo', text, isUndo: true}),
             say,
         });
         const panels = {panel: {button: 'options', close: 'close', key: 'o'},
@@ -460,6 +505,8 @@
                 $(button).setAttribute('aria-expanded', other === id && on);
             }
             $(on ? panels[id].close : panels[id].button).focus();
+            if (id === 'save' && on)
+                send('settings');
         }
         const ask = createAsk({
             send, openPanel,
@@ -480,6 +527,7 @@
                 page.opened = m.name;
                 panel.setColumns(m.columns);
                 ask.begin(m.columns);
+                out.begin({...opened, frames: m.frames, lead: m.lead, kind: m.kind});
                 say(doubts[0] || m.name + (m.count > 1 ? ` and ${m.count - 1} more` : '') +
                     (m.frames > 1 ? ': ' + m.frames + ' frames' : ''));
                 $('time').max = Math.max(0, m.frames - 1);
@@ -504,6 +552,8 @@
                 page.frame = m.frame;
                 page.milliseconds = m.milliseconds;
                 ask.showMarks(m.marks);
+                if (!$('save').hidden && m.left === 0)
+                    send('settings');
                 if (!sliding)
                     $('time').value = m.frame;
                 $('frame').textContent = 'frame ' + m.frame + ', ' + m.primitives.toLocaleString('en') + ' primitives';
@@ -521,6 +571,14 @@
             put: (m) => panel.answer(m),
             camera: () => {},
             described: () => {},
+            progress: (m) => out.progress(m),
+            made: (m) => out.made(m),
+            settings: (m) => out.tell(m.text, m.frame),
+            loaded: (m) => {
+                panel.loaded(m);
+                page.loads++;
+                say(m.text || (m.isUndo ? '' : m.name + ': read'), m.isRefused);
+            },
             asked: (m) => { ask.showPicks(m); ask.showMarks(m.marks); },
             selected: (m) => ask.showSelected(m),
             follow: (m) => ask.answerFollow(m),
@@ -536,13 +594,16 @@
         };
         engine.onerror = (event) => say('this browser does not run the page: ' + event.message, true);
 
+        const openSettings = (name, text) => send('load', {name, text});
+        const out = createOut({send, say, openSettings, page});
         const files = createFiles({
             unpack,
             openRun: (m) => {
                 doubts = m.doubt ? [m.doubt] : [];
+                opened = m.given;
                 send('open', m, m.files.map((f) => f.bytes));
             },
-            openSettings: (name) => say(name + ': settings are not read', true),
+            openSettings,
             say,
             told: (names) => {
                 $('again').disabled = !names.length;

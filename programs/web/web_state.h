@@ -46,6 +46,10 @@ int web_fail(const char *text);
 /* The same with the figure's message where a call has failed, else 0. */
 int web_check(cgt_result result);
 
+/* Takes settings, lines "name = value", in place of all that are set, and reads the files anew. What is refused changes
+ * nothing. Returns 0, or -1. */
+int web_take(const char *settings);
+
 /* web_ask.c: what was picked, and what is followed, is found in a frame that is shown from now on; ends with a run. */
 void web_take_frame(void);
 void web_forget_run(void);

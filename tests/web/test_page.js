@@ -12,6 +12,7 @@ const {test, count, read, settle, camera, pixels, compare, mouse, drag, style, d
        height, data} = require('./page_tools.js');
 const {testAsk} = require('./test_ask.js');
 const {testFiles} = require('./test_files.js');
+const {testOut} = require('./test_out.js');
 
 const [pages, , pick, out] = process.argv.slice(2);
 
@@ -351,6 +352,7 @@ async function main() {
         await testPanel(browser, url(isolated, small), size);
     await testFiles(browser, url(isolated, small));
     await testAsk(browser, url(isolated, small), out);
+    await testOut(browser, url(isolated, small), out);
     await test('inside another page the wheel acts after a click', async () => {
         const around = await browser.open(url(isolated, small));
         const inner = `<iframe src="${url(isolated, small)}" width="400" height="300"></iframe>`;
