@@ -338,6 +338,17 @@ EMSCRIPTEN_KEEPALIVE uint32_t web_frames(void) { return (uint32_t)web.frames; }
 /* How many frames before one it needs. */
 EMSCRIPTEN_KEEPALIVE uint32_t web_lead(void) { return (uint32_t)web.lead; }
 
+/* What is subtracted from places, as three numbers with commas; "": nothing. */
+EMSCRIPTEN_KEEPALIVE const char *web_origin(void)
+{
+    double o[3] = {0.0};
+    if (web.file.file)
+        cgt_trajectory_get_origin(web.file.file, o);
+    const int is_moved = o[0] != 0.0 || o[1] != 0.0 || o[2] != 0.0;
+    snprintf(web.message, sizeof web.message, is_moved ? "%.17g, %.17g, %.17g" : "", o[0], o[1], o[2]);
+    return web.message;
+}
+
 EMSCRIPTEN_KEEPALIVE int web_has_triangles(void)
 {
     return web.shown && cgt_figure_frame_get_data(web.shown)->kind == CGT_TRAJECTORY_TRIANGLES;

@@ -30,7 +30,8 @@ function createOut({send, say, openSettings, page}) {
         const paths = run.names.length > 1 ? `cgt.sort_series([${run.names.map(text).join(', ')}])` : text(run.names[0]);
         const topology = run.topology ? `, topology=${text(run.topology)}` : '';
         const spheres = run.kind === 'spheres' ? ', all_bonds=True, leave_out_sites=True' : '';
-        return `import cgt\n\nrun = cgt.read(${paths}${topology}${spheres})\nfigure = cgt.Figure(\n${keywords})\n` +
+        const origin = run.origin ? `, origin=(${run.origin})` : '';
+        return `import cgt\n\nrun = cgt.read(${paths}${topology}${spheres}${origin})\nfigure = cgt.Figure(\n${keywords})\n` +
             (run.mesh ? `figure.set_mesh(cgt.read(${text(run.mesh)})[0])\n` : '') +
             `figure.survey(run)\nfor frame in run[${Math.max(0, frame - run.lead)}:${frame + 1}]:\n` +
             `    figure.show(frame)\nfigure.save("picture.png")\n`;

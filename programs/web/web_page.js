@@ -363,7 +363,8 @@
             frames = cgt._web_frames();
             const columns = JSON.parse(cgt.UTF8ToString(cgt._web_columns()));
             const kind = cgt._web_has_triangles() ? 'triangles' : 'spheres';
-            tell('opened', {name, count, frames, columns, kind, lead: cgt._web_lead()});
+            const origin = cgt.UTF8ToString(cgt._web_origin());
+            tell('opened', {name, count, frames, columns, kind, origin, lead: cgt._web_lead()});
             tellValues();
             for (let text; (text = cgt._web_warning());)
                 tell('warning', {text: cgt.UTF8ToString(text)});
@@ -525,9 +526,11 @@
             ready: (m) => { page.ready = performance.now() - begin; page.threads = m.threads; },
             opened: (m) => {
                 page.opened = m.name;
+                page.columns = m.columns;
                 panel.setColumns(m.columns);
                 ask.begin(m.columns);
-                out.begin({...opened, frames: m.frames, lead: m.lead, kind: m.kind});
+                out.begin({...opened, frames: m.frames, lead: m.lead, kind: m.kind,
+                           origin: m.origin});
                 say(doubts[0] || m.name + (m.count > 1 ? ` and ${m.count - 1} more` : '') +
                     (m.frames > 1 ? ': ' + m.frames + ' frames' : ''));
                 $('time').max = Math.max(0, m.frames - 1);

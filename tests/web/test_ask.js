@@ -93,6 +93,9 @@ async function testPicks(browser, address, size, isTouched, out) {
         assert.strictEqual(shown.rows.charge, '0.125');
         assert.strictEqual(shown.rows.group, '1');
         assert(shown.rows.at && shown.rows.radius);
+        const columns = await page.run(`cgtPage.columns`), own = ['id', 'type', 'x', 'y', 'z', 'radius']; // in other lines
+        for (const column of columns.filter((name) => !own.includes(name)))
+            assert(column in shown.rows, `${column} is not told`);
         const told = await page.run(`cgtPage.ask('describe', {element: 1}, 'described').then((m) => m.text)`);
         assert.strictEqual(Object.keys(shown.rows).length, told.trim().split('\n').length - 1);
         assert(Math.hypot(...minus(shown.marks[0], places[1])) < 40, 'the mark is far from the atom');

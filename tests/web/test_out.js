@@ -107,6 +107,7 @@ async function testLines(page, folder) {
     };
     await test('the command line makes the same picture, and the lines of Python say the same', async () => {
         const caffeine = [['caffeine.xyz', read('caffeine.xyz')]];
+        await drop(page, ...caffeine[0]);
         for (const [name, values] of [['bonds', '\n'], ['radius-scale', '0.3\n'], ['show', `element != "H" or x > 0\nz < 9\n`],
                                       ['type-color', 'O=gold\nN=navy\n'], ['background', '203040\n'], ['ortho', '\n']])
             await put(page, name, values);

@@ -151,6 +151,59 @@ async function testPanel(browser, address, [across, down]) {
     await page.close();
 }
 
+// What is seen first, in a window of a size.
+async function testFirst(browser, address, [across, down], isTouched) {
+    const page = await browser.open(address), name = `first sight, ${across} pixels wide`;
+    await page.do('Emulation.setDeviceMetricsOverride',
+        {width: across, height: down, deviceScaleFactor: 1, mobile: isTouched});
+    await page.do('Emulation.setTouchEmulationEnabled', {enabled: isTouched});
+    await page.run('window.isOld = true');
+    await page.do('Page.reload');
+    await page.until('!window.isOld && window.cgtPage && cgtPage.opened && cgtPage.pictures');
+    await test(`${name}: a run plays in soft light, and a few words tell what to do`, async () => {
+        await page.until(`/, [1-9][\\d,]* primitives$/.test(document.getElementById('frame').textContent)`, 10);
+        await page.until(`document.getElementById('play').textContent === 'Pause' && cgtPage.frame > 2`, 20);
+        assert.strictEqual(await page.run(`document.getElementById('style').value`), 'soft');
+        const hint = await page.run(`document.getElementById('hint').textContent`);
+        assert.strictEqual(hint, isTouched ? 'drag, pinch, open a file' : 'drag, scroll, drop a file');
+        const [wide, bar, picture] = await page.run(`[document.documentElement.scrollWidth,
+            document.getElementById('bar').offsetHeight, picture.clientWidth * picture.clientHeight]`);
+        assert(wide <= across && bar <= 90 && picture > 0.8 * across * down, `${wide}, ${bar}, ${picture}`);
+        assert(await contrast(page) >= 4.5, `contrast ${await contrast(page)}`);
+        await page.screenshot(path.join(out, `first_${across}.png`));
+    });
+    await test(`${name}: a ${isTouched ? 'finger' : 'drag'} turns it, and the words go`, async () => {
+        const before = await camera(page);
+        if (isTouched) {
+            const touch = (type, points) => page.do('Input.dispatchTouchEvent', {type, touchPoints: points});
+            await touch('touchStart', [{x: 150, y: 300, id: 1}]);
+            for (let i = 1; i <= 5; i++)
+                await touch('touchMove', [{x: 150 + 12 * i, y: 300 + 5 * i, id: 1}]);
+            await touch('touchEnd', []);
+        } else {
+            await drag(page, [300, 200], [360, 225]);
+        }
+        assert.notStrictEqual(await camera(page), before);
+        assert(await page.run(`document.getElementById('hint').hidden`));
+    });
+    await test(`${name}: Tab comes to all that can be used`, async () => {
+        const found = new Set();
+        await page.run(`document.activeElement.blur()`);
+        for (let i = 0; i < 14; i++) {
+            await key(page, 'Tab', 9);
+            found.add(await page.run(`document.activeElement.id`));
+        }
+        const all = await page.run(`[...document.querySelectorAll('canvas, button, input, select, textarea')]
+            .filter((e) => e.getClientRects().length && !e.disabled).map((e) => e.id)`);
+        assert(all.length >= 9 && all.every((id) => found.has(id)), `${all}; ${[...found]}`);
+        const names = await page.run(`[...document.querySelectorAll('button, input, select, textarea, canvas')]
+            .filter((e) => !(e.textContent.trim() || e.getAttribute('aria-label') || (e.labels && e.labels.length)))
+            .map((e) => e.id)`);
+        assert.deepStrictEqual(names, [], 'without a name');
+    });
+    await page.close();
+}
+
 async function main() {
     const alone = await serve(pages, false), isolated = await serve(pages, true), browser = await start();
     const url = (server, query) => `${server.url}/cgt-web.html?${query}`;
@@ -178,6 +231,8 @@ async function main() {
         await page.close();
         return `first picture after ${first} ms`;
     });
+    await testFirst(browser, url(isolated, ''), [1280, 720], false);
+    await testFirst(browser, url(isolated, ''), [390, 844], true);
     for (const [name, server] of [['one thread', alone], ['all threads', isolated]]) {
         const page = await browser.open(url(server, small));
         await page.until('cgtPage.ready');
