@@ -11,7 +11,7 @@
 #include "common/out_path.h"
 #include "common/program.h"
 #include "picture/files/image_write.h"
-#include "render/options/settings_file.h"
+#include "render/options/settings_arguments.h"
 
 static const char is_of_files[] = "this is for the files that cgt-render writes";
 static const char is_of_hand[] = "the hand moves the camera; the key k adds key frames for cgt-render's --camera-keys";

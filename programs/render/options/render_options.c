@@ -11,7 +11,7 @@
 #include "common/program.h"
 #include "picture/files/image_write.h"
 #include "render/options/option_parsers.h"
-#include "render/options/settings_file.h"
+#include "render/options/settings_arguments.h"
 #include "system/system.h"
 #include "options/numbers.h"
 

@@ -63,6 +63,8 @@ printf '\n#ff0000\n\n' >one.map
 yes '#' | head -n 1000001 >lines.txt
 awk 'BEGIN { for (i = 0; i < 65537; i++) print i, "0,0,9,0,0,0,0,1,0,30" }' >many.keys
 echo 'colour = red' >bad.txt
+echo 'no-metadata = 1' >plain.txt
+echo title >title.txt
 yes 'style = soft' | head -n 100001 >many.txt
 awk 'BEGIN { printf "title = "; for (i = 0; i < 9000; i++) printf "a"; print "" }' >long.txt
 head -c 20000000 /dev/zero >big.elf

@@ -533,6 +533,10 @@ printf 'style = paper\nno-such-option\n' >"$tmp/wrong.txt"
 refuses 2 'no-such-option' --settings wrong.txt row.xyz
 printf 'style = paper\n--style plain\n' >"$tmp/wrong.txt"
 refuses 2 'wrong.txt:2: ' --settings wrong.txt row.xyz
+printf 'bonds\n\nstyle = papr\n' >"$tmp/wrong.txt"
+refuses 2 'wrong.txt:3: style: "papr" is not' --settings wrong.txt row.xyz
+printf 'first\n' >"$tmp/wrong.txt"
+refuses 2 'wrong.txt:1: first: the option takes a value' --settings wrong.txt row.xyz
 printf 'settings = wrong.txt\n' >"$tmp/wrong.txt"
 refuses 2 'wrong.txt:1: ' --settings wrong.txt row.xyz
 refuses 2 'missing.txt: ' --settings missing.txt row.xyz

@@ -1,14 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Settings files: the options of a command line, one a line,
- *     # a comment
- *     style = paper
- *     transparent
- *     type-color = 2=red
- * options.h writes them. */
-#ifndef SETTINGS_FILE_H
-#define SETTINGS_FILE_H
+ * Settings files (common/settings_file.h) of a command line; options.h prints its own as such a file. */
+#ifndef SETTINGS_ARGUMENTS_H
+#define SETTINGS_ARGUMENTS_H
 
 #include <stddef.h>
 
