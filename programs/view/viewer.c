@@ -96,6 +96,7 @@ viewer *viewer_create(const view_options *options, void (*wake)(void *user), voi
         cgt_figure_get_up(v->draw->figure, v->axis);
         view_camera_straighten(&v->camera);
         memcpy(v->pivot, v->camera.target, sizeof v->pivot);
+        viewer_publish(v);
         v->frames = view_draw_start_frames(v->draw, (size_t)options->render.memory_mib << 20, on_frames, v);
     }
     if (v->draw && !v->frames) {
@@ -125,6 +126,9 @@ void viewer_free(viewer *v)
     view_frames_finish(v->frames);
     view_draw_close(v->draw);
     program_set_error_sink(NULL, NULL);
+    viewer_free_options(v);
+    for (size_t i = 0; i < v->event_count; i++)
+        free(v->events[i].text);
     cgt_text_close(v->font);
     free(v->events);
     free(v->rgb);
@@ -141,8 +145,12 @@ void viewer_send(viewer *v, const view_event *event)
 {
     pthread_mutex_lock(&v->lock);
     view_event *const last = v->event_count ? &v->events[v->event_count - 1] : NULL;
-    if (last && last->kind == event->kind && (event->kind == VIEW_MOVE || event->kind == VIEW_RESIZE)) {
+    const int is_put_on = last && event->kind == VIEW_PUT && event->continues && last->option == event->option;
+    if (last && last->kind == event->kind && (event->kind == VIEW_MOVE || event->kind == VIEW_RESIZE || is_put_on)) {
+        const int continues = last->continues;
+        free(last->text);
         *last = *event; /* where the pointer was is of no use */
+        last->continues = continues;
     } else {
         if (v->event_count == v->event_room) {
             view_event *more = realloc(v->events, (2 * v->event_room + 64) * sizeof *more);
@@ -151,6 +159,8 @@ void viewer_send(viewer *v, const view_event *event)
         }
         if (v->events && v->event_count < v->event_room)
             v->events[v->event_count++] = *event;
+        else
+            free(event->text);
     }
     v->sent = v->sent > 0.0 ? v->sent : program_seconds();
     v->stop = 1;
@@ -185,8 +195,10 @@ static double take_events(viewer *v)
     v->changed |= v->is_woken;
     v->is_woken = 0;
     pthread_mutex_unlock(&v->lock);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
         viewer_handle(v, &events[i]);
+        free(events[i].text);
+    }
     free(events);
     return sent;
 }
@@ -227,8 +239,11 @@ static void take_frame(viewer *v)
     const double begin = program_seconds();
     v->scene_is_wrong = viewer_show_frame(v, frame) != 0;
     v->build_cost = 0.8 * v->build_cost + 0.2e3 * (program_seconds() - begin);
+    const int is_first = !v->shown;
     view_frames_release(v->frames, v->shown);
     v->shown = frame;
+    if (is_first) /* with the columns */
+        viewer_publish(v);
     v->is_arriving = v->is_arriving && !figure_run_shows(frame->kept);
     v->wanted += (uint64_t)v->is_arriving;
     v->outdated = 1;
@@ -300,6 +315,15 @@ int viewer_take_clipboard(viewer *v, char *text, size_t size)
     v->has_clipboard = 0;
     pthread_mutex_unlock(&v->lock);
     return has;
+}
+
+view_request viewer_take_request(viewer *v)
+{
+    pthread_mutex_lock(&v->lock);
+    const view_request request = v->request;
+    v->request = VIEW_ASKS_NOTHING;
+    pthread_mutex_unlock(&v->lock);
+    return request;
 }
 
 void viewer_describe(const viewer *v, char *text, size_t size)

@@ -53,6 +53,24 @@ void viewer_move_to(viewer *v, uint64_t frame)
     v->changed = 1;
 }
 
+/* ---- The panel ---------------------------------------------------------------------------------------------- */
+
+static void ask(viewer *v, view_request request)
+{
+    pthread_mutex_lock(&v->lock);
+    v->request = request;
+    pthread_mutex_unlock(&v->lock);
+    v->changed = 1; /* the window looks for it when a picture comes */
+}
+
+static void ask_panel(viewer *v)
+{
+    if (v->panel == VIEW_PANEL_ABSENT)
+        viewer_say(v, "this build has no panel of options: it needs Dear ImGui");
+    else
+        ask(v, VIEW_ASKS_PANEL);
+}
+
 /* ---- The hand ----------------------------------------------------------------------------------------------- */
 
 /* To where the pointer is along the bar. */
@@ -70,6 +88,10 @@ static void press(viewer *v, const view_event *e)
     v->pressed_x = v->x = e->x;
     v->pressed_y = v->y = e->y;
     v->dragged = 0;
+    if (e->button == 1 && viewer_button_at(v, e->x, e->y)) {
+        ask_panel(v);
+        return;
+    }
     if (e->button == 1 && row >= 0) {
         viewer_take_list(v, row);
         return;
@@ -151,6 +173,17 @@ static void look_along(viewer *v, int axis, int from_below)
     camera_moved(v);
 }
 
+/* As the option view has it. */
+static void look_from(viewer *v, const char *side)
+{
+    static const char *const sides[] = {"front", "back", "right", "left", "top", "bottom"};
+    const int up = v->axis[1] != 0.0f ? 1 : v->axis[0] != 0.0f ? 0 : 2, front = up == 1 ? 2 : 1, right = 3 - up - front;
+    const int axes[] = {front, front, right, right, up, up}, front_is_below = up == 2;
+    for (int i = 0; i < 6; i++)
+        if (strcmp(side, sides[i]) == 0)
+            look_along(v, axes[i], (i & 1) ^ (i < 2 && front_is_below));
+}
+
 static void fit(viewer *v)
 {
     cgt_figure *const figure = v->draw->figure;
@@ -225,9 +258,14 @@ static void time_key(viewer *v, int key, int shift)
     }
 }
 
-static void key(viewer *v, int key, int shift)
+static void key(viewer *v, int key, int shift, int control)
 {
     v->changed = 1;
+    if (control) {
+        if (key == 'z')
+            viewer_undo(v);
+        return;
+    }
     if (list_key(v, key))
         return;
     switch (key) {
@@ -238,7 +276,9 @@ static void key(viewer *v, int key, int shift)
     case 'x':
     case 'y':
     case 'z': look_along(v, key - 'x', shift); break;
-    case 'o': view_draw_has(v->draw, "ortho") ? viewer_unset(v, "ortho") : viewer_set(v, "ortho", NULL); break;
+    case 'o': ask_panel(v); break;
+    case 'u': viewer_undo(v); break;
+    case 'p': view_draw_has(v->draw, "ortho") ? viewer_unset(v, "ortho") : viewer_set(v, "ortho", NULL); break;
     case 'l': viewer_open_list(v); break;
     case 'd':
     case VIEW_KEY_DELETE: viewer_hide(v, shift, 0); break;
@@ -258,6 +298,11 @@ void viewer_handle(viewer *v, const view_event *e)
             v->wants_end = 1;
         return;
     }
+    if (e->kind == VIEW_PANEL) {
+        v->panel = e->panel;
+        v->changed = 1;
+        return;
+    }
     if (!v->draw) { /* there is a message to read, no more */
         v->wants_end |= e->kind == VIEW_KEY && (e->key == 'q' || e->key == VIEW_KEY_ESCAPE);
         return;
@@ -267,7 +312,10 @@ void viewer_handle(viewer *v, const view_event *e)
     case VIEW_MOVE: move(v, e); break;
     case VIEW_RELEASE: release(v, e); break;
     case VIEW_WHEEL: zoom(v, e); break;
-    case VIEW_KEY: key(v, e->key, e->shift); break;
-    case VIEW_RESIZE: break;
+    case VIEW_KEY: key(v, e->key, e->shift, e->control); break;
+    case VIEW_PUT: viewer_take_put(v, e); break;
+    case VIEW_LOOK: look_from(v, e->text); break;
+    case VIEW_RESIZE:
+    case VIEW_PANEL: break;
     }
 }

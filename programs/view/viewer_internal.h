@@ -13,6 +13,7 @@
 #include "view/view_draw.h"
 #include "view/viewer.h"
 
+enum { VIEW_CHANGES = 100, VIEW_SENTENCE = 1024 };
 enum { VIEW_PICKS = 3, VIEW_MESSAGES = 6, VIEW_LIST_MOST = 300, VIEW_LEVELS = 6 };
 
 /* A sphere or triangle that was clicked. It is followed through the frames by its id, where there are ids. */
@@ -26,6 +27,18 @@ typedef struct view_message {
     char text[512];
     double until; /* seconds; 0: it was not yet seen */
 } view_message;
+
+/* An option as other threads see it, each NULL for "". */
+typedef struct view_option {
+    char *values;  /* as cgt_figure_get has them */
+    char *refused; /* why what was put last is not among them */
+} view_option;
+
+/* What can be undone. */
+typedef struct view_change {
+    uint32_t option;
+    char *before; /* its values */
+} view_change;
 
 typedef enum view_quality {
     VIEW_PLAIN = CGT_FIGURE_PLAIN,
@@ -88,6 +101,9 @@ struct viewer {
     uint32_t picks;
     char clipboard[512];
     int has_clipboard;
+    view_change change[VIEW_CHANGES];
+    uint32_t change_count;
+    int panel; /* view_panel_state */
 
     stop_flag stop; /* ends the picture at hand */
     stop_flag closing;
@@ -98,6 +114,10 @@ struct viewer {
     int is_woken; /* frames have arrived, or messages */
     view_message message[VIEW_MESSAGES];
     uint32_t messages;
+    view_option option[OPTIONS_MOST];
+    char *columns;
+    uint64_t options_version;
+    view_request request;
     pthread_mutex_t picture_lock; /* of all below */
     uint32_t *pixels;
     uint32_t pixels_width, pixels_height;
@@ -106,11 +126,24 @@ struct viewer {
     char title[256];
 };
 
-/* viewer_set.c: an option of the figure: sets it, or takes it back, and what is seen follows; or a sentence tells why
- * not. Return 0 or -1. All controls of looks go this way. */
+/* viewer_set.c: all controls of looks go this way. Makes these lines all values of an option, and what is seen follows;
+ * or nothing changes and a sentence tells why. Returns 0 or -1. */
+typedef enum view_put {
+    VIEW_PUT_NEW,
+    VIEW_PUT_ON, /* goes on with the last change, as a slider does */
+    VIEW_PUT_BACK
+} view_put;
+int viewer_put(viewer *v, const char *name, const char *lines, view_put how, char *why, size_t size);
+void viewer_take_put(viewer *v, const view_event *event);
+void viewer_undo(viewer *v);
+
+/* The same of one value, which is added where the option repeats, and of none; the sentence is printed. */
 int viewer_set(viewer *v, const char *name, const char *value);
 int viewer_unset(viewer *v, const char *name);
+
 int viewer_show_frame(viewer *v, view_frame *frame); /* makes it the one that is drawn; the same results */
+void viewer_publish(viewer *v);                      /* other threads see the options as they are now */
+void viewer_free_options(viewer *v);
 
 /* viewer_events.c: changes the state. */
 void viewer_handle(viewer *v, const view_event *event);
@@ -126,6 +159,7 @@ uint32_t viewer_band(uint32_t height); /* rows of a band */
 /* viewer_panels.c: draws what lies over the picture, which is in v->over. */
 void viewer_draw_panels(viewer *v);
 int viewer_bar_at(const viewer *v, float x, float y, double *share); /* whether that is on the bar; where along it */
+int viewer_button_at(const viewer *v, float x, float y);             /* whether that is on the button of the panel */
 int viewer_list_row(const viewer *v, float x, float y);              /* of the list; -1: none */
 
 /* viewer_select.c */

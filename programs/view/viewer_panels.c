@@ -110,12 +110,24 @@ static void draw_status(viewer *v, const view_frames_state *s)
           (const char(*)[128])line, 1, -1);
 }
 
+/* ---- The button of the panel of options ----------------------------------------------------------------------- */
+
+static const char button_text[][128] = {"options: o"};
+
+/* From the top at the right: where there is a panel, and it is closed. */
+int viewer_button_at(const viewer *v, float x, float y)
+{
+    return v->panel == VIEW_PANEL_CLOSED && v->font && !v->list &&
+           y < 12.0f * v->scale + line_height(v) + 8.0f * v->scale &&
+           x >= (float)v->width - 28.0f * v->scale - cgt_text_width(v->font, button_text[0]);
+}
+
 /* ---- Panels ------------------------------------------------------------------------------------------------- */
 
 static const char help_lines[][128] = {
     "drag: turn       right or middle button: pan       wheel: zoom to the pointer",
     "double click: turn about that point       f: fit       x y z: along an axis (Shift: from behind)",
-    "o: perspective or parallel",
+    "p: perspective or parallel       o: options       u: undo",
     "",
     "space: play, pause       left, right: a frame (Shift: ten)       Page up, down: a tenth",
     "Home, End       + -: faster, slower       the bar below: drag",
@@ -231,6 +243,8 @@ void viewer_draw_panels(viewer *v)
     }
     if (v->list)
         draw_list(v);
+    else if (v->panel == VIEW_PANEL_CLOSED)
+        panel(v, (float)v->width - 12.0f * v->scale, 12.0f * v->scale, 1, button_text, 1, -1);
     if (v->help)
         panel(v, 24.0f * v->scale, 40.0f * v->scale, 0, help_lines, sizeof help_lines / sizeof help_lines[0], -1);
     draw_messages(v);

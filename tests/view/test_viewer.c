@@ -492,6 +492,8 @@ static view_event random_event(test_random *r)
                                'y',
                                'z',
                                'o',
+                               'p',
+                               'u',
                                'l',
                                'd',
                                'i',
@@ -523,8 +525,17 @@ static view_event random_event(test_random *r)
     if (random_below(r, 400) == 0)
         e.key = 's';
     e.shift = random_below(r, 4) == 0;
-    if (e.kind == VIEW_RESIZE && random_below(r, 20))
+    e.control = random_below(r, 10) == 0;
+    if (e.kind == VIEW_RESIZE && random_below(r, 10))
         e.kind = VIEW_MOVE;
+    if (e.kind == VIEW_RESIZE && random_below(r, 2)) { /* what a panel sends */
+        static const char *const texts[] = {"", "\n", "1\n", "x > 3\n", "a\nb\n", "top"};
+        e.kind = (view_event_kind)(VIEW_PUT + random_below(r, 3));
+        e.option = random_below(r, 80);
+        e.text = strdup(texts[random_below(r, sizeof texts / sizeof texts[0])]);
+        e.continues = (int)random_below(r, 2);
+        e.panel = (int)random_below(r, 3);
+    }
     e.width = random_below(r, 160);
     e.height = random_below(r, 120);
     e.scale = random_below(r, 2) ? 1.0f : 2.0f;

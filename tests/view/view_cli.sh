@@ -69,7 +69,7 @@ key Left
 key End
 key Left
 settle
-key o
+key p
 key z
 key Shift+X
 key s
@@ -88,6 +88,27 @@ key s
 settle
 END
 same view_0000-2.png
+
+# What the panel sets is in the picture; without the panel in the build o says so, and the rest is for the picture.
+if "$program" --help | grep -q 'o opens a panel'; then
+    view 0 -s 700x400 --style plain -a 1 "$data/caffeine.xyz" <<'END'
+settle
+key o
+wait 0.2
+text radius-sc
+key Return
+text 0.4
+key Return
+wait 0.1
+key Escape
+settle
+key s
+settle
+shot panel.png
+END
+    same view_0000-3.png
+    grep -q -e '--radius-scale=0.4' "$tmp/command" || fail "the panel sets nothing: $(cat "$tmp/command")"
+fi
 
 # Mirrors and glass, a floor, a transparent background; also after colours, hiding and the camera's up have changed.
 rm -f "$tmp"/view_*

@@ -7,11 +7,13 @@
 
 #include <SDL2/SDL.h>
 
-#include "view/viewer.h"
+#include "view/window/view_panel.h"
 
 typedef struct view_window {
     viewer *viewer;
     SDL_Window *window;
+    view_panel *panel; /* NULL: this build has none */
+    int panel_is_open;
     Uint32 event;    /* a picture may be there */
     SDL_mutex *lock; /* of all below */
     SDL_cond *changed;
@@ -24,6 +26,9 @@ typedef struct view_window {
 /* Takes what SDL has, and shows the picture where there is a new one. Waits for up to `ms`. Returns 0 where the window
  * was closed. */
 int view_window_poll(view_window *w, int ms);
+
+/* The columns of pixels that the panel has at the right of the window's; scale: of its texts. */
+int view_window_panel_width(const view_window *w, float *scale);
 
 /* Runs a script: 0, or -1 with the message printed. */
 int view_script_run(view_window *w, const char *path);
