@@ -58,7 +58,8 @@ static const option_row own_rows[] = {
      AT(TEXT, keys), .is_running = 1},
     {"script", 0, "FILE",
      "Take events from this file, a line each, and end after the last: press or release BUTTON X Y; move, click or "
-     "double X Y; wheel TURNS X Y; key NAME, as Space, Shift+D or Ctrl+Z; text WORDS; size W H; settle, until the "
+     "double X Y; wheel TURNS X Y; key NAME, as Space, Shift+D or Ctrl+Z; text WORDS; drop FILE; size W H; settle, "
+     "until the "
      "picture is complete; "
      "wait SECONDS; shot FILE, the window as .png; say, the state; close",
      AT(TEXT, script), .is_running = 1},
@@ -95,7 +96,10 @@ static int finish(void *options, const char **operands, size_t count, char *erro
         snprintf(error, size, "--transparent: \"%s\" holds no opacity; .png does", o->pictures);
         return -1;
     }
-    return render_options_finish(&o->render, operands, count, error, size);
+    o->render.print_settings = count == 0; /* which is no error here: the window asks for a file */
+    const int result = render_options_finish(&o->render, operands, count, error, size);
+    o->render.print_settings = 0;
+    return result;
 }
 
 /* The rows of cgt-render, each heading with the first that is kept, and the window's own. */
@@ -143,7 +147,7 @@ void view_options_parse(view_options *o, int argc, char **argv)
     const option_table table = {
         .rows = rows,
         .count = join_rows(rows),
-        .arguments = "FILE...",
+        .arguments = "[FILE...]",
         .text = "Shows the moving spheres or triangles of a trajectory in a window, as cgt-render draws them: all "
                 "that cgt-render reads, and its options for looks.\v"
                 "Drag to turn, with the right button to pan, the wheel zooms to the pointer, a click tells what is "

@@ -13,6 +13,8 @@
 #include <string.h>
 #include <time.h>
 
+#include "view/view_recent.h"
+
 /* ---- Messages ----------------------------------------------------------------------------------------------- */
 
 static void add_message(viewer *v, const char *text)
@@ -53,7 +55,7 @@ static void age_messages(viewer *v)
     pthread_mutex_lock(&v->lock);
     for (uint32_t i = 0; i < v->messages; i++)
         if (v->message[i].until == 0.0) {
-            v->message[i].until = v->draw ? v->now + stay : INFINITY;
+            v->message[i].until = v->draw || !v->options.render.input_count ? v->now + stay : INFINITY;
             v->changed = 1;
         }
     while (v->messages && v->message[v->messages - 1].until <= v->now) {
@@ -65,7 +67,7 @@ static void age_messages(viewer *v)
 
 /* ---- Begin and end ------------------------------------------------------------------------------------------ */
 
-static void on_frames(void *user)
+void viewer_on_frames(void *user)
 {
     viewer *const v = user;
     pthread_mutex_lock(&v->lock);
@@ -90,19 +92,23 @@ viewer *viewer_create(const view_options *options, void (*wake)(void *user), voi
     pthread_mutex_init(&v->lock, NULL);
     pthread_mutex_init(&v->picture_lock, NULL);
     program_set_error_sink(on_error, v);
-    v->draw = view_draw_open(options);
+    v->draw = options->render.input_count ? view_draw_open(options) : NULL;
     if (v->draw) {
         cgt_figure_get_camera(v->draw->figure, &v->camera);
         cgt_figure_get_up(v->draw->figure, v->axis);
         view_camera_straighten(&v->camera);
         memcpy(v->pivot, v->camera.target, sizeof v->pivot);
         viewer_publish(v);
-        v->frames = view_draw_start_frames(v->draw, (size_t)options->render.memory_mib << 20, on_frames, v);
+        v->frames = view_draw_start_frames(v->draw, (size_t)options->render.memory_mib << 20, viewer_on_frames, v);
     }
+    if (v->frames)
+        view_recent_add(options->render.input);
     if (v->draw && !v->frames) {
         view_draw_close(v->draw);
         v->draw = NULL;
     }
+    if (!v->draw && options->render.input_count)
+        v->options.render.settings = NULL; /* what opens took them over */
     if (viewer_picture_resize(v, options->render.figure.width, options->render.figure.height, 1.0f)) {
         viewer_free(v);
         return NULL;
@@ -124,9 +130,11 @@ void viewer_free(viewer *v)
     view_draw_stop(v->draw);
     view_frames_release(v->frames, v->shown);
     view_frames_finish(v->frames);
+    viewer_forget_settings(v);
     view_draw_close(v->draw);
     program_set_error_sink(NULL, NULL);
     viewer_free_options(v);
+    viewer_free_opened(&v->opened);
     for (size_t i = 0; i < v->event_count; i++)
         free(v->events[i].text);
     cgt_text_close(v->font);
@@ -272,13 +280,13 @@ double viewer_step(viewer *v, double now)
         viewer_compose(v);
         count_wait(v, sent);
     }
-    if (v->messages && v->draw)
+    if (v->messages)
         wait = fmin(wait, 0.5);
     return wait;
 }
 
 int viewer_wants_end(const viewer *v) { return v->wants_end; }
-int viewer_has_failed(const viewer *v) { return !v->draw; }
+int viewer_has_failed(const viewer *v) { return !v->draw && v->options.render.input_count; }
 
 /* ---- Asking ------------------------------------------------------------------------------------------------- */
 

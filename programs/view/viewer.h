@@ -22,6 +22,7 @@ typedef enum view_event_kind {
     VIEW_RESIZE,  /* width, height, scale */
     VIEW_PUT,     /* option, text, continues: lines as cgt_figure_get has them become all values of an option */
     VIEW_LOOK,    /* text: front, back, right, left, top or bottom */
+    VIEW_OPEN,    /* text: names of files, a line each; settings files end in .settings */
     VIEW_PANEL    /* panel: whether there is one beside the picture */
 } view_event_kind;
 
@@ -61,7 +62,7 @@ typedef struct viewer viewer;
 struct view_options; /* view_options.h */
 
 /* wake: viewer_step has something to do, or a picture is there; any thread calls it. Opens the input: where that fails
- * the viewer shows why. NULL: no memory. */
+ * the viewer shows why, where there is none how to name one. NULL: no memory. */
 viewer *viewer_create(const struct view_options *options, void (*wake)(void *user), void *user);
 void viewer_free(viewer *v);
 
@@ -116,7 +117,11 @@ void viewer_copy_option(viewer *v, uint32_t index, char **values, char **refused
 char *viewer_copy_columns(viewer *v);
 
 /* What the viewer asks of its window, once. */
-typedef enum view_request { VIEW_ASKS_NOTHING = 0, VIEW_ASKS_PANEL /* to open or close it */ } view_request;
+typedef enum view_request {
+    VIEW_ASKS_NOTHING = 0,
+    VIEW_ASKS_PANEL, /* to open or close it */
+    VIEW_ASKS_FILE   /* for the name of one to open */
+} view_request;
 view_request viewer_take_request(viewer *v);
 
 /* Copies text for the user to paste, once: 1, or 0 where there is nothing new. */

@@ -2,9 +2,11 @@
  * SPDX-License-Identifier: MIT
  *
  * Events of the viewer: what hand and keys change. */
+#define _POSIX_C_SOURCE 200809L
 #include "view/viewer_internal.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static void camera_moved(viewer *v)
@@ -264,6 +266,10 @@ static void key(viewer *v, int key, int shift, int control)
     if (control) {
         if (key == 'z')
             viewer_undo(v);
+        else if (key == 'o')
+            ask(v, VIEW_ASKS_FILE);
+        else if (key == 's')
+            viewer_save_settings(v);
         return;
     }
     if (list_key(v, key))
@@ -278,6 +284,7 @@ static void key(viewer *v, int key, int shift, int control)
     case 'z': look_along(v, key - 'x', shift); break;
     case 'o': ask_panel(v); break;
     case 'u': viewer_undo(v); break;
+    case 'r': viewer_read_anew(v); break;
     case 'p': view_draw_has(v->draw, "ortho") ? viewer_unset(v, "ortho") : viewer_set(v, "ortho", NULL); break;
     case 'l': viewer_open_list(v); break;
     case 'd':
@@ -289,6 +296,20 @@ static void key(viewer *v, int key, int shift, int control)
     case 'c': viewer_copy_camera(v); break;
     default: time_key(v, key, shift); break;
     }
+}
+
+static void open_files(viewer *v, const char *paths)
+{
+    const size_t first = strcspn(paths, "\n"), ending = sizeof ".settings" - 1;
+    if (first > ending && strncmp(paths + first - ending, ".settings", ending) == 0) {
+        char *const path = strndup(paths, first);
+        if (path)
+            viewer_load_settings(v, path);
+        free(path);
+    } else {
+        viewer_open(v, paths);
+    }
+    v->changed = 1;
 }
 
 void viewer_handle(viewer *v, const view_event *e)
@@ -303,7 +324,13 @@ void viewer_handle(viewer *v, const view_event *e)
         v->changed = 1;
         return;
     }
-    if (!v->draw) { /* there is a message to read, no more */
+    if (e->kind == VIEW_OPEN) {
+        open_files(v, e->text);
+        return;
+    }
+    if (!v->draw) { /* there is a message to read, or a file to be named */
+        if (e->kind == VIEW_KEY && e->control && e->key == 'o')
+            ask(v, VIEW_ASKS_FILE);
         v->wants_end |= e->kind == VIEW_KEY && (e->key == 'q' || e->key == VIEW_KEY_ESCAPE);
         return;
     }
@@ -316,6 +343,7 @@ void viewer_handle(viewer *v, const view_event *e)
     case VIEW_PUT: viewer_take_put(v, e); break;
     case VIEW_LOOK: look_from(v, e->text); break;
     case VIEW_RESIZE:
+    case VIEW_OPEN:
     case VIEW_PANEL: break;
     }
 }

@@ -8,6 +8,7 @@
 #include <pthread.h>
 
 #include "common/program.h"
+#include "options/figure_settings.h"
 #include "text/text.h"
 #include "view/view_camera.h"
 #include "view/view_draw.h"
@@ -34,6 +35,12 @@ typedef struct view_option {
     char *refused; /* why what was put last is not among them */
 } view_option;
 
+/* What a file that was opened in the window needs: the names of files, and the texts of the options. */
+typedef struct view_opened {
+    char *paths, **inputs;
+    figure_settings settings;
+} view_opened;
+
 /* What can be undone. */
 typedef struct view_change {
     uint32_t option;
@@ -52,7 +59,8 @@ struct viewer {
     view_options options;
     void (*wake)(void *user);
     void *user;
-    view_draw *draw; /* NULL: the input could not be opened */
+    view_draw *draw; /* NULL: the input could not be opened, or there is none */
+    view_opened opened;
     view_frames *frames;
     double now;
     int wants_end;
@@ -171,12 +179,22 @@ void viewer_take_list(viewer *v, int row);
 void viewer_hide(viewer *v, int kind, int only);
 void viewer_show_all(viewer *v);
 
+/* viewer_open.c: what fails leaves all as it is, with the message printed. Paths are lines. */
+void viewer_open(viewer *v, const char *paths);
+void viewer_read_anew(viewer *v);
+int viewer_read_by(viewer *v, const char *name, const char *values); /* other values of an option: 0 or -1 */
+void viewer_load_settings(viewer *v, const char *path);
+void viewer_save_settings(viewer *v);
+void viewer_forget_settings(viewer *v); /* of a command line without a file */
+void viewer_free_opened(view_opened *opened);
+
 /* viewer_out.c */
 void viewer_write_picture(viewer *v);
 void viewer_add_key(viewer *v);
 void viewer_copy_camera(viewer *v);
 
 /* viewer.c */
+void viewer_on_frames(void *user); /* frames have arrived; any thread */
 void viewer_say(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 static inline uint64_t viewer_number(const viewer *v, uint64_t chosen)

@@ -138,8 +138,12 @@ static const char help_lines[][128] = {
     "",
     "s: write the picture, and print the command line that makes it",
     "k: add a key frame for --camera-keys       c: copy the camera",
+    "Ctrl+O: open a file, or drop it here       r: read it anew       Ctrl+S: save the settings",
     "h: this help       q: end",
 };
+
+/* Without a file. */
+static const char empty_lines[][128] = {"Drop a file here", "or press Ctrl+O to choose one.       q: end"};
 
 /* The first of the list's rows that are seen, and how many fit. */
 static int first_row(const viewer *v, int *rows)
@@ -235,6 +239,8 @@ void viewer_draw_panels(viewer *v)
         draw_bar(v, &state);
         draw_status(v, &state);
     }
+    if (!v->options.render.input_count)
+        panel(v, 24.0f * v->scale, 40.0f * v->scale, 0, empty_lines, sizeof empty_lines / sizeof empty_lines[0], 0);
     if (v->picks) {
         const float room = (float)v->height - 90.0f * v->scale;
         const uint32_t most = (uint32_t)fmaxf(2.0f, fminf(room / line_height(v), (float)PANEL_LINES));
@@ -243,7 +249,7 @@ void viewer_draw_panels(viewer *v)
     }
     if (v->list)
         draw_list(v);
-    else if (v->panel == VIEW_PANEL_CLOSED)
+    else if (v->panel == VIEW_PANEL_CLOSED && v->draw)
         panel(v, (float)v->width - 12.0f * v->scale, 12.0f * v->scale, 1, button_text, 1, -1);
     if (v->help)
         panel(v, 24.0f * v->scale, 40.0f * v->scale, 0, help_lines, sizeof help_lines / sizeof help_lines[0], -1);

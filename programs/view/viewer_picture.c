@@ -172,7 +172,7 @@ static void put_row(const uint8_t *rgb, uint32_t *pixels, uint32_t width, uint32
 
 static void set_title(viewer *v)
 {
-    const char *const input = v->options.render.input;
+    const char *const input = v->options.render.input ? v->options.render.input : "cgt-view";
     if (v->shown)
         snprintf(v->title, sizeof v->title, "%.180s: frame %llu", input, (unsigned long long)v->shown->frame.number);
     else

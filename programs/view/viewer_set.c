@@ -103,6 +103,16 @@ static int set_lines(viewer *v, const cgt_figure_option *o, const char *lines, c
     return 0;
 }
 
+/* Frames that are kept are of such an option: they are read anew. */
+static int is_of_reading(const char *name)
+{
+    static const char *const names[] = {"unwrap", "whole", "trails"};
+    int is_one = 0;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        is_one |= strcmp(name, names[i]) == 0;
+    return is_one;
+}
+
 /* Keeps what was there before, but of the steps of one movement of a slider only the first. Takes it over. */
 static void remember(viewer *v, uint32_t option, char *before, int continues)
 {
@@ -131,7 +141,15 @@ int viewer_put(viewer *v, const char *name, const char *lines, view_put how, cha
         free(before);
         return option == UINT32_MAX || !before ? -1 : 0;
     }
-    if (set_lines(v, &o, lines, why, size)) {
+    if (v->shown && is_of_reading(name)) {
+        if (viewer_read_by(v, name, lines)) {
+            pthread_mutex_lock(&v->lock);
+            snprintf(why, size, "%s", v->messages ? v->message[0].text : "");
+            pthread_mutex_unlock(&v->lock);
+            free(before);
+            return -1;
+        }
+    } else if (set_lines(v, &o, lines, why, size)) {
         char ignored[VIEW_SENTENCE];
         if (o.repeats)
             set_lines(v, &o, before, ignored, sizeof ignored);

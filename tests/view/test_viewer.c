@@ -392,12 +392,14 @@ static uint64_t sum(viewer *v)
 /* Any option may be set while a frame is shown; what is refused says why, and changes nothing. */
 TEST(options_are_set_in_the_window)
 {
-    static const char *const options[][2] = {{"style", "paper"},     {"color", "q"},  {"bonds", "0.9"},
-                                             {"show", "type > 1"},   {"ortho", NULL}, {"background", "white"},
-                                             {"radius-by", "q/300"}, {"box", NULL}};
+    static const char *const options[][2] = {
+        {"style", "paper"},      {"color", "q"},         {"bonds", "0.9"}, {"show", "type > 1"}, {"ortho", NULL},
+        {"background", "white"}, {"radius-by", "q/300"}, {"box", NULL},    {"trails", "3"}}; /* the last reads anew */
     static const char *const wrong[][2] = {
-        {"size", "10x10"}, {"color", "no_such"}, {"trails", "3"}, {"fill", "much"}, {"nothing", "1"}};
+        {"size", "10x10"}, {"color", "no_such"}, {"trails", "0"}, {"fill", "much"}, {"nothing", "1"}};
     viewer *const v = open_viewer(64);
+    settle(v);
+    key(v, VIEW_KEY_END, 0);
     settle(v);
     const cgt_camera camera = v->camera;
     const uint64_t before = sum(v);

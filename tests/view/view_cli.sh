@@ -110,6 +110,60 @@ END
     grep -q -e '--radius-scale=0.4' "$tmp/command" || fail "the panel sets nothing: $(cat "$tmp/command")"
 fi
 
+# A window without a file; files that are dropped on it, read anew, with settings that are saved and loaded.
+XDG_DATA_HOME=$tmp/data\ home
+export XDG_DATA_HOME
+head -n 14 "$data/caffeine.xyz" | sed '1s/.*/12/' >"$tmp/few.xyz"
+cp "$data/caffeine.xyz" "$tmp/later.xyz"
+view 0 --style plain -a 1 <<END
+wait 0.1
+key o
+key s
+drop few.xyz
+settle
+key p
+key Ctrl+S
+drop missing.xyz
+drop $pour
+settle
+say
+drop few.xyz
+drop view.settings
+settle
+key r
+settle
+key s
+settle
+END
+same view_0000-4.png
+says out '^frame 3, full, 1/1, color type, '
+says err '^cgt-view: missing.xyz: No such file or directory$'
+[ "$(grep -c missing "$tmp/stderr")" -eq 1 ] || fail "a file that is not there is opened twice"
+grep -q -e '--ortho' "$tmp/command" || fail "settings are not loaded: $(cat "$tmp/command")"
+[ "$(sed 's|.*/||' "$XDG_DATA_HOME/cgt/recent" | paste -sd' ')" = "few.xyz pour2k.lammpstrj" ] ||
+    fail "recent files: $(cat "$XDG_DATA_HOME/cgt/recent")"
+printf 'style = soft\nwhole = 1\n' >"$tmp/wrong.settings"
+view 0 --style plain -a 1 few.xyz <<'END'
+settle
+drop wrong.settings
+wait 0.1
+say
+END
+says err 'wrong.settings:2: whole: the option takes no value'
+says out '^frame 0, '
+# a file that is written anew
+(sleep 2; mv "$tmp/later.xyz" "$tmp/few.xyz") &
+view 0 --style plain -a 1 few.xyz <<'END'
+settle
+wait 4
+key r
+settle
+key s
+settle
+END
+wait
+same view_0000-5.png # by the file that is there now
+
 # Mirrors and glass, a floor, a transparent background; also after colours, hiding and the camera's up have changed.
 rm -f "$tmp"/view_*
 view 0 --material 'C=glass' --material 'all=mirror' --bounces 4 --floor "$data/caffeine.xyz" <<'END'
@@ -340,8 +394,7 @@ view 2 --ambient 999 "$pour" </dev/null
 says err '0 to 256'
 view 2 -o 'x.exr' "$pour" </dev/null
 says err '\.png'
-run 2
-says err 'no trajectory'
+run 0 $size --script /dev/null
 run 0 --help
 says out '--style'
 says out '--memory'

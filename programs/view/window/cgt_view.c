@@ -173,8 +173,11 @@ static void present(view_window *w, int all)
         SDL_SetWindowTitle(w->window, p.title);
     if (viewer_take_clipboard(w->viewer, clipboard, sizeof clipboard))
         SDL_SetClipboardText(clipboard);
-    if (viewer_take_request(w->viewer) == VIEW_ASKS_PANEL)
-        open_panel(w, !w->panel_is_open);
+    switch (viewer_take_request(w->viewer)) {
+    case VIEW_ASKS_PANEL: open_panel(w, !w->panel_is_open); break;
+    case VIEW_ASKS_FILE: view_dialog_open(w); break;
+    case VIEW_ASKS_NOTHING: break;
+    }
 }
 
 /* ---- Events ------------------------------------------------------------------------------------------------- */
@@ -264,6 +267,8 @@ static int take(view_window *w, const SDL_Event *e, int *shows, int *all)
         if (key.key)
             viewer_send(w->viewer, &key);
         break;
+    case SDL_DROPFILE:
+    case SDL_DROPCOMPLETE: view_dialog_drop(w, e); break;
     case SDL_WINDOWEVENT:
         if (e->window.event == SDL_WINDOWEVENT_SIZE_CHANGED)
             send_size(w);
@@ -301,9 +306,9 @@ static int run(view_window *w, const view_options *o)
     w->lock = SDL_CreateMutex();
     w->changed = SDL_CreateCond();
     w->event = SDL_RegisterEvents(1);
-    w->window =
-        SDL_CreateWindow(o->render.input, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, (int)o->render.figure.width,
-                         (int)o->render.figure.height, SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+    w->window = SDL_CreateWindow(o->render.input ? o->render.input : "cgt-view", SDL_WINDOWPOS_UNDEFINED,
+                                 SDL_WINDOWPOS_UNDEFINED, (int)o->render.figure.width, (int)o->render.figure.height,
+                                 SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
     if (!w->lock || !w->changed || !w->window) {
         program_error("cannot open a window: %s", SDL_GetError());
         return -1;
@@ -325,6 +330,7 @@ static int run(view_window *w, const view_options *o)
     else
         while (view_window_poll(w, 1000)) {
         }
+    view_dialog_end(w);
     viewer_stop(w->viewer);
     SDL_LockMutex(w->lock);
     w->closing = 1;

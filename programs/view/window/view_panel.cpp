@@ -18,6 +18,7 @@
 #include <cgt/figure.h>
 
 #include "view/view_field.h"
+#include "view/view_recent.h"
 
 namespace
 {
@@ -93,12 +94,12 @@ std::vector<std::string> words_of(const view_panel &p, const Field &f)
     return words;
 }
 
-void send(const view_panel &p, view_event_kind kind, const char *text, int key = 0, int shift = 0)
+void send(const view_panel &p, view_event_kind kind, const char *text, int key = 0, bool control = false)
 {
     view_event e = {};
     e.kind = kind;
     e.key = key;
-    e.shift = shift;
+    e.control = control;
     e.text = text ? strdup(text) : nullptr;
     viewer_send(p.v, &e);
 }
@@ -401,6 +402,26 @@ void draw_sections(view_panel &p)
 
 /* ---- The head ----------------------------------------------------------------------------------------------- */
 
+/* Files that were opened last, by their names; where each lies is told beside it. */
+void draw_recent(view_panel &p, float width)
+{
+    ImGui::SetNextItemWidth(width);
+    if (!ImGui::BeginCombo("##recent", "Recent", ImGuiComboFlags_PopupAlignLeft | ImGuiComboFlags_NoArrowButton))
+        return;
+    char *const list = view_recent_list();
+    for (const std::string &path : split(list)) {
+        const size_t slash = path.rfind('/');
+        ImGui::PushID(path.c_str());
+        if (ImGui::Selectable(path.c_str() + slash + 1))
+            send(p, VIEW_OPEN, (path + "\n").c_str());
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("%s", path.c_str());
+        ImGui::PopID();
+    }
+    free(list);
+    ImGui::EndCombo();
+}
+
 void draw_buttons(view_panel &p)
 {
     static const struct {
@@ -421,6 +442,18 @@ void draw_buttons(view_panel &p)
     ImGui::SameLine();
     if (ImGui::Button("Close", size))
         p.closes = true;
+    if (ImGui::Button("Open", size))
+        send(p, VIEW_KEY, nullptr, 'o', true);
+    ImGui::SameLine();
+    draw_recent(p, width);
+    ImGui::SameLine();
+    if (ImGui::Button("Read anew", size))
+        send(p, VIEW_KEY, nullptr, 'r');
+    ImGui::SameLine();
+    if (ImGui::Button("Save", size))
+        send(p, VIEW_KEY, nullptr, 's', true);
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("the settings, as a file");
     const float third = (ImGui::GetContentRegionAvail().x - 5.0f * gap) / 6.0f;
     for (size_t i = 0; i < sizeof looks / sizeof looks[0]; i++) {
         if (i)

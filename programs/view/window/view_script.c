@@ -89,6 +89,19 @@ static void push_text(const char *text)
     }
 }
 
+/* A file that is dropped on the window. */
+static void push_drop(const char *path)
+{
+    SDL_Event e;
+    SDL_zero(e);
+    e.type = SDL_DROPFILE;
+    e.drop.file = SDL_strdup(path);
+    SDL_PushEvent(&e);
+    e.type = SDL_DROPCOMPLETE;
+    e.drop.file = NULL;
+    SDL_PushEvent(&e);
+}
+
 static void push_wheel(float turns, int x, int y)
 {
     SDL_Event e;
@@ -195,6 +208,10 @@ static int run_line(view_window *w, const char *line, char *error, size_t size)
         return DONE;
     if (strcmp(word, "key") == 0)
         return push_key(rest);
+    if (strcmp(word, "drop") == 0) {
+        push_drop(rest);
+        return DONE;
+    }
     if (strcmp(word, "text") == 0) {
         push_text(rest);
         return DONE;
