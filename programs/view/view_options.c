@@ -59,9 +59,7 @@ static const option_row own_rows[] = {
     {"script", 0, "FILE",
      "Take events from this file, a line each, and end after the last: press or release BUTTON X Y; move, click or "
      "double X Y; wheel TURNS X Y; key NAME, as Space, Shift+D or Ctrl+Z; text WORDS; drop FILE; size W H; settle, "
-     "until the "
-     "picture is complete; "
-     "wait SECONDS; shot FILE, the window as .png; say, the state; close",
+     "until the picture and a movie are complete; wait SECONDS; shot FILE, the window as .png; say, the state; close",
      AT(TEXT, script), .is_running = 1},
 };
 

@@ -127,6 +127,8 @@ void viewer_free(viewer *v)
     if (!v)
         return;
     viewer_stop(v);
+    viewer_stop_movie(v);
+    viewer_watch_movie(v, 1);
     view_draw_stop(v->draw);
     view_frames_release(v->frames, v->shown);
     view_frames_finish(v->frames);
@@ -139,6 +141,7 @@ void viewer_free(viewer *v)
         free(v->events[i].text);
     cgt_text_close(v->font);
     free(v->events);
+    free(v->clipboard);
     free(v->rgb);
     free(v->over);
     free(v->pixels);
@@ -276,6 +279,7 @@ double viewer_step(viewer *v, double now)
     } else {
         age_messages(v);
     }
+    wait = fmin(wait, viewer_watch_movie(v, 0));
     if (v->changed) {
         viewer_compose(v);
         count_wait(v, sent);
@@ -314,15 +318,13 @@ void viewer_peek(viewer *v, view_picture *p)
 
 void viewer_give_back(viewer *v) { pthread_mutex_unlock(&v->picture_lock); }
 
-int viewer_take_clipboard(viewer *v, char *text, size_t size)
+char *viewer_take_clipboard(viewer *v)
 {
     pthread_mutex_lock(&v->lock);
-    const int has = v->has_clipboard;
-    if (has)
-        snprintf(text, size, "%s", v->clipboard);
-    v->has_clipboard = 0;
+    char *const text = v->clipboard;
+    v->clipboard = NULL;
     pthread_mutex_unlock(&v->lock);
-    return has;
+    return text;
 }
 
 view_request viewer_take_request(viewer *v)

@@ -22,6 +22,7 @@ typedef enum view_event_kind {
     VIEW_RESIZE,  /* width, height, scale */
     VIEW_PUT,     /* option, text, continues: lines as cgt_figure_get has them become all values of an option */
     VIEW_LOOK,    /* text: front, back, right, left, top or bottom */
+    VIEW_COPY,    /* text: command or python: what makes the picture goes to the clipboard */
     VIEW_OPEN,    /* text: names of files, a line each; settings files end in .settings */
     VIEW_PANEL    /* panel: whether there is one beside the picture */
 } view_event_kind;
@@ -79,7 +80,7 @@ double viewer_step(viewer *v, double now);
 /* Whether the user asked to end. */
 int viewer_wants_end(const viewer *v);
 
-/* In the thread of the steps: whether the picture is as good as it gets. */
+/* In the thread of the steps: whether the picture is as good as it gets, and a movie is ready. */
 int viewer_is_settled(const viewer *v);
 
 /* Whether the input could not be opened. */
@@ -124,8 +125,8 @@ typedef enum view_request {
 } view_request;
 view_request viewer_take_request(viewer *v);
 
-/* Copies text for the user to paste, once: 1, or 0 where there is nothing new. */
-int viewer_take_clipboard(viewer *v, char *text, size_t size);
+/* Text for the user to paste, once, which the caller frees; NULL: there is nothing new. */
+char *viewer_take_clipboard(viewer *v);
 
 #ifdef __cplusplus
 }

@@ -293,7 +293,8 @@ static void key(viewer *v, int key, int shift, int control)
     case 'a': viewer_show_all(v); break;
     case 's': viewer_write_picture(v); break;
     case 'k': viewer_add_key(v); break;
-    case 'c': viewer_copy_camera(v); break;
+    case 'm': viewer_start_movie(v, shift ? 360.0f : 0.0f); break;
+    case 'c': shift ? viewer_copy_command(v) : viewer_copy_camera(v); break;
     default: time_key(v, key, shift); break;
     }
 }
@@ -342,6 +343,7 @@ void viewer_handle(viewer *v, const view_event *e)
     case VIEW_KEY: key(v, e->key, e->shift, e->control); break;
     case VIEW_PUT: viewer_take_put(v, e); break;
     case VIEW_LOOK: look_from(v, e->text); break;
+    case VIEW_COPY: strcmp(e->text, "python") == 0 ? viewer_copy_python(v) : viewer_copy_command(v); break;
     case VIEW_RESIZE:
     case VIEW_OPEN:
     case VIEW_PANEL: break;

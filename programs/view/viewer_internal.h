@@ -9,6 +9,7 @@
 
 #include "common/program.h"
 #include "options/figure_settings.h"
+#include "system/process.h"
 #include "text/text.h"
 #include "view/view_camera.h"
 #include "view/view_draw.h"
@@ -40,6 +41,15 @@ typedef struct view_opened {
     char *paths, **inputs;
     figure_settings settings;
 } view_opened;
+
+/* A movie that is being made by cgt-render. */
+typedef struct view_movie {
+    int is_made, is_stopped;
+    process_child child;
+    FILE *messages;
+    char name[64], log[1024];
+    uint64_t frames; /* so far */
+} view_movie;
 
 /* What can be undone. */
 typedef struct view_change {
@@ -107,8 +117,8 @@ struct viewer {
     uint32_t list_count;
     view_pick pick[VIEW_PICKS];
     uint32_t picks;
-    char clipboard[512];
-    int has_clipboard;
+    view_movie movie;
+    char *clipboard; /* NULL: nothing new */
     view_change change[VIEW_CHANGES];
     uint32_t change_count;
     int panel; /* view_panel_state */
@@ -188,10 +198,17 @@ void viewer_save_settings(viewer *v);
 void viewer_forget_settings(viewer *v); /* of a command line without a file */
 void viewer_free_opened(view_opened *opened);
 
+/* viewer_movie.c: of all frames, and with an orbit of so many degrees; or ends the one that is being made. */
+void viewer_start_movie(viewer *v, float orbit);
+void viewer_stop_movie(viewer *v);
+double viewer_watch_movie(viewer *v, int waits); /* returns in how many seconds to look again */
+
 /* viewer_out.c */
 void viewer_write_picture(viewer *v);
 void viewer_add_key(viewer *v);
 void viewer_copy_camera(viewer *v);
+void viewer_copy_command(viewer *v);
+void viewer_copy_python(viewer *v);
 
 /* viewer.c */
 void viewer_on_frames(void *user); /* frames have arrived; any thread */

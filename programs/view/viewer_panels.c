@@ -103,6 +103,8 @@ static void draw_status(viewer *v, const view_frames_state *s)
             snprintf(state, sizeof state, "  grows");
         if (v->frame_ms > 0.0 && viewer_is_moving(v) && *state == '\0')
             snprintf(state, sizeof state, "  %.0f pictures/s", 1e3 / v->frame_ms);
+        if (v->movie.is_made)
+            snprintf(state, sizeof state, "  movie: %llu frames", (unsigned long long)v->movie.frames);
         snprintf(line[0], sizeof line[0], "%s %llu of %llu%s%s%s   h: help", v->playing ? "playing" : "frame",
                  (unsigned long long)f->number, (unsigned long long)s->count, s->is_final ? "" : "+", time, state);
     }
@@ -137,7 +139,8 @@ static const char help_lines[][128] = {
     "l: colour by ...",
     "",
     "s: write the picture, and print the command line that makes it",
-    "k: add a key frame for --camera-keys       c: copy the camera",
+    "k: add a key frame for --camera-keys       c: copy the camera (Shift: the command line)",
+    "m: make a movie of all frames (Shift: that turns once), or end it",
     "Ctrl+O: open a file, or drop it here       r: read it anew       Ctrl+S: save the settings",
     "h: this help       q: end",
 };

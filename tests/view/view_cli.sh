@@ -164,6 +164,45 @@ END
 wait
 same view_0000-5.png # by the file that is there now
 
+# A movie is cgt-render's, and one that is ended leaves nothing; Python for a picture.
+mkdir "$tmp/temporary"
+TMPDIR=$tmp/temporary
+export TMPDIR
+rm -f "$tmp"/view*.settings
+view 0 --style plain -a 1 --type-color 1=red --type-color '2=blue' --title 'It'"'"'s "so" \' "$pour" <<'END'
+key End
+settle
+key Ctrl+S
+key Shift+C
+key m
+key m
+settle
+key m
+settle
+say
+END
+if command -v ffmpeg >/dev/null; then
+    (cd "$tmp" && "$render" --settings view.settings -q -o again.mp4 "$pour") >/dev/null 2>&1
+    cmp -s "$tmp/view.mp4" "$tmp/again.mp4" || fail "m does not write what cgt-render does"
+    [ "$(cd "$tmp" && ls view*.mp4)" = view.mp4 ] || fail "a movie that was ended is there: $(ls "$tmp")"
+fi
+[ -z "$(ls "$TMPDIR")" ] || fail "temporary files stay: $(ls "$TMPDIR")"
+unset TMPDIR
+if command -v python3 >/dev/null && "$program" --help | grep -q 'o opens a panel'; then
+    view 0 -s 900x300 --style plain -a 1 --type-color 1=red --type-color '2=blue' --title 'It'"'"'s "so" \' --bonds \
+        "$data/caffeine.xyz" <<'END'
+settle
+key o
+wait 0.2
+click 780 43
+wait 0.2
+END
+    cp "$tmp/stdout" "$tmp/lines.py"
+    python3 -m py_compile "$tmp/lines.py" 2>"$tmp/python.log" || fail "Python's lines: $(cat "$tmp/lines.py" "$tmp/python.log")"
+    grep -qF 'type_color=["1=red", "2=blue"], title="It'"'"'s \"so\" \\", bonds=True' "$tmp/lines.py" ||
+        fail "Python's lines: $(cat "$tmp/lines.py")"
+fi
+
 # Mirrors and glass, a floor, a transparent background; also after colours, hiding and the camera's up have changed.
 rm -f "$tmp"/view_*
 view 0 --material 'C=glass' --material 'all=mirror' --bounces 4 --floor "$data/caffeine.xyz" <<'END'

@@ -138,7 +138,6 @@ static void present_panel(view_window *w, int all)
 static void present(view_window *w, int all)
 {
     SDL_Surface *const to = SDL_GetWindowSurface(w->window);
-    char clipboard[1024];
     float scale;
     view_picture p;
     SDL_Rect rects[VIEW_RECTS];
@@ -171,8 +170,10 @@ static void present(view_window *w, int all)
         SDL_UpdateWindowSurfaceRects(w->window, rects, count);
     if (strcmp(SDL_GetWindowTitle(w->window), p.title) != 0)
         SDL_SetWindowTitle(w->window, p.title);
-    if (viewer_take_clipboard(w->viewer, clipboard, sizeof clipboard))
+    char *const clipboard = viewer_take_clipboard(w->viewer);
+    if (clipboard)
         SDL_SetClipboardText(clipboard);
+    free(clipboard);
     switch (viewer_take_request(w->viewer)) {
     case VIEW_ASKS_PANEL: open_panel(w, !w->panel_is_open); break;
     case VIEW_ASKS_FILE: view_dialog_open(w); break;

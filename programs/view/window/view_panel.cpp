@@ -422,6 +422,13 @@ void draw_recent(view_panel &p, float width)
     ImGui::EndCombo();
 }
 
+/* About the last control. */
+void tell(const char *text)
+{
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s", text);
+}
+
 void draw_buttons(view_panel &p)
 {
     static const struct {
@@ -442,6 +449,20 @@ void draw_buttons(view_panel &p)
     ImGui::SameLine();
     if (ImGui::Button("Close", size))
         p.closes = true;
+    if (ImGui::Button("Movie", size))
+        send(p, VIEW_KEY, nullptr, 'm');
+    ImGui::SameLine();
+    if (ImGui::Button("Command", size))
+        send(p, VIEW_COPY, "command");
+    tell("copies the command line of cgt-render that makes the picture");
+    ImGui::SameLine();
+    if (ImGui::Button("Python", size))
+        send(p, VIEW_COPY, "python");
+    tell("copies the lines of Python that make the picture");
+    ImGui::SameLine();
+    if (ImGui::Button("Camera", size))
+        send(p, VIEW_KEY, nullptr, 'c');
+    tell("copies the camera, as -c takes it");
     if (ImGui::Button("Open", size))
         send(p, VIEW_KEY, nullptr, 'o', true);
     ImGui::SameLine();
@@ -452,8 +473,7 @@ void draw_buttons(view_panel &p)
     ImGui::SameLine();
     if (ImGui::Button("Save", size))
         send(p, VIEW_KEY, nullptr, 's', true);
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("the settings, as a file");
+    tell("the settings, as a file");
     const float third = (ImGui::GetContentRegionAvail().x - 5.0f * gap) / 6.0f;
     for (size_t i = 0; i < sizeof looks / sizeof looks[0]; i++) {
         if (i)
