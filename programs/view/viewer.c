@@ -20,7 +20,11 @@
 static void add_message(viewer *v, const char *text)
 {
     pthread_mutex_lock(&v->lock);
-    for (uint32_t i = VIEW_MESSAGES - 1; i > 0; i--)
+    uint32_t same = 0; /* what was said before is not said twice */
+    while (same < v->messages && strncmp(v->message[same].text, text, sizeof v->message[same].text - 1) != 0)
+        same++;
+    v->messages -= same < v->messages;
+    for (uint32_t i = same < VIEW_MESSAGES ? same : VIEW_MESSAGES - 1; i > 0; i--)
         v->message[i] = v->message[i - 1];
     snprintf(v->message[0].text, sizeof v->message[0].text, "%s", text);
     v->message[0].until = 0.0;
@@ -136,6 +140,7 @@ void viewer_free(viewer *v)
     view_draw_close(v->draw);
     program_set_error_sink(NULL, NULL);
     viewer_free_options(v);
+    viewer_free_selection(v);
     viewer_free_opened(&v->opened);
     for (size_t i = 0; i < v->event_count; i++)
         free(v->events[i].text);
@@ -261,6 +266,7 @@ static void take_frame(viewer *v)
     v->changed = 1;
     v->playing = v->scene_is_wrong ? 0 : v->playing;
     viewer_follow_picks(v);
+    viewer_follow_selection(v);
 }
 
 double viewer_step(viewer *v, double now)

@@ -22,6 +22,8 @@ typedef enum view_event_kind {
     VIEW_RESIZE,  /* width, height, scale */
     VIEW_PUT,     /* option, text, continues: lines as cgt_figure_get has them become all values of an option */
     VIEW_LOOK,    /* text: front, back, right, left, top or bottom */
+    VIEW_SELECT,  /* text: a formula; "": nothing; NULL: what was picked */
+    VIEW_USE,     /* text: hide, show, fade, label or follow the selection */
     VIEW_COPY,    /* text: command or python: what makes the picture goes to the clipboard */
     VIEW_OPEN,    /* text: names of files, a line each; settings files end in .settings */
     VIEW_PANEL    /* panel: whether there is one beside the picture */
@@ -116,6 +118,11 @@ void viewer_describe(const viewer *v, char *text, size_t size);
 uint64_t viewer_options_version(viewer *v);
 void viewer_copy_option(viewer *v, uint32_t index, char **values, char **refused);
 char *viewer_copy_columns(viewer *v);
+
+/* How many spheres the formula of the selection has, or what is wrong with it; its formula, where the viewer made it,
+ * once: NULL: there is no new one. The caller frees them. */
+char *viewer_copy_selection(viewer *v);
+char *viewer_take_formula(viewer *v);
 
 /* What the viewer asks of its window, once. */
 typedef enum view_request {

@@ -343,6 +343,8 @@ void viewer_handle(viewer *v, const view_event *e)
     case VIEW_KEY: key(v, e->key, e->shift, e->control); break;
     case VIEW_PUT: viewer_take_put(v, e); break;
     case VIEW_LOOK: look_from(v, e->text); break;
+    case VIEW_SELECT: e->text ? viewer_select(v, e->text) : viewer_select_picks(v); break;
+    case VIEW_USE: viewer_use_selection(v, e->text); break;
     case VIEW_COPY: strcmp(e->text, "python") == 0 ? viewer_copy_python(v) : viewer_copy_command(v); break;
     case VIEW_RESIZE:
     case VIEW_OPEN:

@@ -8,6 +8,7 @@
 #include <pthread.h>
 
 #include "common/program.h"
+#include "data/measure.h"
 #include "options/figure_settings.h"
 #include "system/process.h"
 #include "text/text.h"
@@ -16,13 +17,14 @@
 #include "view/viewer.h"
 
 enum { VIEW_CHANGES = 100, VIEW_SENTENCE = 1024 };
-enum { VIEW_PICKS = 3, VIEW_MESSAGES = 6, VIEW_LIST_MOST = 300, VIEW_LEVELS = 6 };
+enum { VIEW_PICKS = MEASURE_MOST, VIEW_MESSAGES = 6, VIEW_LIST_MOST = 300, VIEW_LEVELS = 6 };
 
 /* A sphere or triangle that was clicked. It is followed through the frames by its id, where there are ids. */
 typedef struct view_pick {
     uint32_t element; /* in the frame that is shown; UINT32_MAX: it is not there */
     uint32_t id;
-    float place[3]; /* centre of a sphere, hit of a triangle */
+    float place[3];  /* centre of a sphere, hit of a triangle */
+    double share[2]; /* of the triangle's second and third corner */
 } view_pick;
 
 typedef struct view_message {
@@ -41,6 +43,14 @@ typedef struct view_opened {
     char *paths, **inputs;
     figure_settings settings;
 } view_opened;
+
+/* What a formula selects. */
+typedef struct view_filter {
+    char *formula; /* NULL: none */
+    int64_t count; /* of the shown frame; -1: the formula is wrong */
+    int is_followed;
+    double center[3]; /* where the middle was */
+} view_filter;
 
 /* A movie that is being made by cgt-render. */
 typedef struct view_movie {
@@ -117,6 +127,8 @@ struct viewer {
     uint32_t list_count;
     view_pick pick[VIEW_PICKS];
     uint32_t picks;
+    int has_bond; /* the two are the ends of one */
+    view_filter filter;
     view_movie movie;
     char *clipboard; /* NULL: nothing new */
     view_change change[VIEW_CHANGES];
@@ -134,6 +146,8 @@ struct viewer {
     uint32_t messages;
     view_option option[OPTIONS_MOST];
     char *columns;
+    char *formula;   /* of the selection, where it was made from what was picked; NULL: nothing new */
+    char *selection; /* how many spheres the formula selects, or what is wrong with it; NULL: there is none */
     uint64_t options_version;
     view_request request;
     pthread_mutex_t picture_lock; /* of all below */
@@ -188,6 +202,13 @@ void viewer_open_list(viewer *v);
 void viewer_take_list(viewer *v, int row);
 void viewer_hide(viewer *v, int kind, int only);
 void viewer_show_all(viewer *v);
+void viewer_select_picks(viewer *v); /* the formula becomes that of what was picked */
+
+/* viewer_filter.c: a formula's spheres; "": none. what: hide, show, fade, label or follow. */
+void viewer_select(viewer *v, const char *formula);
+void viewer_use_selection(viewer *v, const char *what);
+void viewer_follow_selection(viewer *v); /* after a new frame */
+void viewer_free_selection(viewer *v);
 
 /* viewer_open.c: what fails leaves all as it is, with the message printed. Paths are lines. */
 void viewer_open(viewer *v, const char *paths);

@@ -49,11 +49,11 @@ struct view_panel {
     ImGuiContext *context = nullptr;
     std::vector<Field> fields;
     std::vector<std::string> columns;
-    std::string find;
-    uint64_t version = UINT64_MAX; /* of the options that are shown */
-    bool has_focus = false;        /* the keyboard is the panel's */
-    bool is_captured = false;      /* a button went down in it */
-    bool wants_first = false;      /* the first control that the search finds is to have the keyboard */
+    std::string find, formula, selection; /* what is typed; how many spheres the formula selects */
+    uint64_t version = UINT64_MAX;        /* of the options that are shown */
+    bool has_focus = false;               /* the keyboard is the panel's */
+    bool is_captured = false;             /* a button went down in it */
+    bool wants_first = false;             /* the first control that the search finds is to have the keyboard */
     bool wants_find = false, is_outdated = true, closes = false;
     double time = 0.0;
     float scale = 0.0f;
@@ -156,6 +156,12 @@ void synchronize(view_panel &p)
     char *const columns = viewer_copy_columns(p.v);
     p.columns = split(columns);
     free(columns);
+    char *const selection = viewer_copy_selection(p.v), *const formula = viewer_take_formula(p.v);
+    p.selection = selection ? selection : "";
+    if (formula)
+        p.formula = formula;
+    free(selection);
+    free(formula);
     p.is_outdated = true;
 }
 
@@ -355,7 +361,7 @@ void draw_field(view_panel &p, Field &f)
     ImGui::SameLine(left + whole - 2.0f * button + 1.0f);
     if (ImGui::Button("?", ImVec2(button - 1.0f, 0.0f)))
         f.has_help = !f.has_help;
-    if (!f.values.empty() || !f.refused.empty()) {
+    if (!f.why_not && (!f.values.empty() || !f.refused.empty())) {
         ImGui::SameLine(left + whole - button + 1.0f);
         if (ImGui::Button("\xC3\x97", ImVec2(button - 1.0f, 0.0f))) { /* a multiplication sign */
             put(p, f, "");
@@ -483,6 +489,49 @@ void draw_buttons(view_panel &p)
     }
 }
 
+/* Spheres by a formula: how many they are, and what is done with them. */
+void draw_selection(view_panel &p)
+{
+    static const struct {
+        const char *name, *use, *told;
+    } uses[] = {{"Hide", "hide", "adds the formula to hide"},
+                {"Alone", "show", "adds the formula to show"},
+                {"Fade", "fade", "the others are seen through: opacity"},
+                {"Label", "label", "adds the formula to label"},
+                {"Follow", "follow", "the camera goes with their middle from frame to frame, or no more"}};
+    const float gap = ImGui::GetStyle().ItemSpacing.x, whole = ImGui::GetContentRegionAvail().x;
+    const float button = ImGui::GetFrameHeight() + 1.0f;
+    if (!ImGui::CollapsingHeader("Selection"))
+        return;
+    ImGui::SetNextItemWidth(0.75f * whole - button - gap);
+    const bool is_typed = input("##formula", "formula, such as z > 5", p.formula);
+    ImGui::SameLine(0.0f, 1.0f);
+    bool is_chosen = false;
+    if (ImGui::BeginCombo("##columns", "", ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft)) {
+        for (const std::string &column : p.columns)
+            if (ImGui::Selectable(column.c_str())) {
+                p.formula = column;
+                is_chosen = true;
+            }
+        ImGui::EndCombo();
+    }
+    if (is_typed || is_chosen)
+        send(p, VIEW_SELECT, p.formula.c_str());
+    ImGui::SameLine();
+    if (ImGui::Button("Picked", ImVec2(-FLT_MIN, 0.0f)))
+        send(p, VIEW_SELECT, nullptr);
+    tell("the spheres that were clicked");
+    if (!p.selection.empty())
+        draw_wrapped(p.selection.c_str(), p.selection[0] >= '0' && p.selection[0] <= '9' ? plain_text : error_text);
+    for (size_t i = 0; i < sizeof uses / sizeof uses[0]; i++) {
+        if (i)
+            ImGui::SameLine();
+        if (ImGui::Button(uses[i].name, ImVec2((whole - 4.0f * gap) / 5.0f, 0.0f)))
+            send(p, VIEW_USE, uses[i].use);
+        tell(uses[i].told);
+    }
+}
+
 void draw_all(view_panel &p)
 {
     const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
@@ -497,6 +546,8 @@ void draw_all(view_panel &p)
     p.wants_find = false;
     p.wants_first = input("##find", "find an option", p.find, ImGuiInputTextFlags_EnterReturnsTrue) && !p.find.empty();
     ImGui::BeginChild("sections", ImVec2(0.0f, 0.0f), false, ImGuiWindowFlags_NavFlattened);
+    if (p.find.empty())
+        draw_selection(p);
     draw_sections(p);
     ImGui::EndChild();
     ImGui::End();
