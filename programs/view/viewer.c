@@ -92,7 +92,7 @@ viewer *viewer_create(const view_options *options, void (*wake)(void *user), voi
     v->shrink = 1;
     v->scale = 1.0f;
     v->rate = options->render.output.rate > 0.0 ? options->render.output.rate : 30.0;
-    v->outdated = v->changed = v->is_arriving = 1;
+    v->outdated = v->changed = v->is_arriving = v->is_new = 1;
     pthread_mutex_init(&v->lock, NULL);
     pthread_mutex_init(&v->picture_lock, NULL);
     program_set_error_sink(on_error, v);

@@ -335,6 +335,7 @@ void viewer_handle(viewer *v, const view_event *e)
         v->wants_end |= e->kind == VIEW_KEY && (e->key == 'q' || e->key == VIEW_KEY_ESCAPE);
         return;
     }
+    v->is_new &= e->kind != VIEW_PRESS && e->kind != VIEW_WHEEL && e->kind != VIEW_KEY;
     switch (e->kind) {
     case VIEW_PRESS: press(v, e); break;
     case VIEW_MOVE: move(v, e); break;

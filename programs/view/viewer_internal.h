@@ -101,6 +101,7 @@ struct viewer {
     /* The user's hand. */
     view_drag drag;
     int dragged; /* the button moved since it was pressed */
+    int is_new;  /* nobody has pressed anything yet */
     float x, y, pressed_x, pressed_y;
 
     /* The picture without what lies over it. */

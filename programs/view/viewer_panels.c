@@ -105,8 +105,11 @@ static void draw_status(viewer *v, const view_frames_state *s)
             snprintf(state, sizeof state, "  %.0f pictures/s", 1e3 / v->frame_ms);
         if (v->movie.is_made)
             snprintf(state, sizeof state, "  movie: %llu frames", (unsigned long long)v->movie.frames);
-        snprintf(line[0], sizeof line[0], "%s %llu of %llu%s%s%s   h: help", v->playing ? "playing" : "frame",
-                 (unsigned long long)f->number, (unsigned long long)s->count, s->is_final ? "" : "+", time, state);
+        snprintf(line[0], sizeof line[0], "%s %llu of %llu%s%s%s   %sh: help", v->playing ? "playing" : "frame",
+                 (unsigned long long)f->number, (unsigned long long)s->count, s->is_final ? "" : "+", time, state,
+                 !v->is_new ? ""
+                 : v->panel ? "drag: turn   click: ask   o: options   "
+                            : "drag: turn   click: ask   ");
     }
     panel(v, 6.0f * v->scale, (s->count > 1 ? bar_top(v) : (float)v->height) - 32.0f * v->scale, 0,
           (const char(*)[128])line, 1, -1);
@@ -243,7 +246,8 @@ void viewer_draw_panels(viewer *v)
         draw_status(v, &state);
     }
     if (!v->options.render.input_count)
-        panel(v, 24.0f * v->scale, 40.0f * v->scale, 0, empty_lines, sizeof empty_lines / sizeof empty_lines[0], 0);
+        panel(v, fmaxf(24.0f * v->scale, 0.5f * (float)v->width - 150.0f * v->scale), 0.45f * (float)v->height, 0,
+              empty_lines, sizeof empty_lines / sizeof empty_lines[0], 0);
     if (v->picks) {
         const float room = (float)v->height - 90.0f * v->scale;
         const uint32_t most = (uint32_t)fmaxf(2.0f, fminf(room / line_height(v), (float)PANEL_LINES));

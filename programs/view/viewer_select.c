@@ -202,8 +202,8 @@ static void add_name(viewer *v, const char *name)
 
 void viewer_open_list(viewer *v)
 {
-    v->list = !v->list;
-    if (!v->list || !v->shown)
+    v->list = !v->list && v->shown;
+    if (!v->list)
         return;
     const cgt_trajectory_frame *const f = &v->shown->frame;
     v->list_count = 0;

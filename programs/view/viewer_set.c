@@ -103,13 +103,17 @@ static int set_lines(viewer *v, const cgt_figure_option *o, const char *lines, c
     return 0;
 }
 
-/* Frames that are kept are of such an option: they are read anew. */
-static int is_of_reading(const char *name)
+/* Frames that are kept are of such an option: they are read anew. So they are where bonds are to be guessed, or sites to be
+ * shown, that were left out so far. */
+static int is_of_reading(const viewer *v, const char *name, const char *lines)
 {
+    const cgt_trajectory_options *const r = &v->draw->options.reading;
     static const char *const names[] = {"unwrap", "whole", "trails"};
     int is_one = 0;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         is_one |= strcmp(name, names[i]) == 0;
+    is_one |= strcmp(name, "bonds") == 0 && *lines && !r->all_bonds;
+    is_one |= strcmp(name, "show") == 0 && strstr(lines, "site") && r->leave_out_sites;
     return is_one;
 }
 
@@ -141,7 +145,7 @@ int viewer_put(viewer *v, const char *name, const char *lines, view_put how, cha
         free(before);
         return option == UINT32_MAX || !before ? -1 : 0;
     }
-    if (v->shown && is_of_reading(name)) {
+    if (v->shown && is_of_reading(v, name, lines)) {
         if (viewer_read_by(v, name, lines)) {
             pthread_mutex_lock(&v->lock);
             snprintf(why, size, "%s", v->messages ? v->message[0].text : "");

@@ -468,7 +468,7 @@ same "$(cd "$tmp" && ls view_*.png | tail -n 1)"
 # The guide's commands make its pictures: those of one kind of window have their size.
 cp "$data/pour2k.lammpstrj" "$data/caffeine.xyz" "$tmp"
 sed -n -e '/^## Scripts/,$s/^    printf/printf/p' -e '/^## Scripts/,$s/^    cgt-view/run 0/p' "$guide" >"$tmp/guide"
-[ "$(wc -l <"$tmp/guide")" -eq 6 ] || fail "not six commands in $guide"
+[ "$(wc -l <"$tmp/guide")" -eq 8 ] || fail "not eight commands in $guide"
 while read -r command; do
     case $command in
     printf*) (cd "$tmp" && eval "$command") ;;
@@ -479,6 +479,10 @@ for picture in angle colors help; do
     [ "$(od -A n -j 16 -N 8 -t x1 "$tmp/$picture.png" | tr -d ' ')" = 00000280000001e0 ] ||
         fail "no $picture.png of 640x480"
 done
+
+if "$program" --help | grep -q 'o opens a panel'; then
+    [ "$(od -A n -j 16 -N 8 -t x1 "$tmp/panel.png" | tr -d ' ')" = 000003c00000021c ] || fail "no panel.png of 960x540"
+fi
 
 [ $failures -eq 0 ] || exit 1
 echo "cgt-view by scripts"

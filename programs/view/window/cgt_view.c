@@ -85,13 +85,15 @@ static void get_scale(SDL_Window *window, float *pixels, float *scale)
         *scale = floorf(fminf(dpi, 384.0f) / 48.0f) * 0.5f; /* in halves */
 }
 
+static const float panel_width = 380.0f; /* units of texts */
+
 int view_window_panel_width(const view_window *w, float *scale)
 {
     int width, height;
     float pixels;
     SDL_GetWindowSizeInPixels(w->window, &width, &height);
     get_scale(w->window, &pixels, scale);
-    const int wanted = (int)(380.0f * *scale), most = width - width / 3;
+    const int wanted = (int)(panel_width * *scale), most = width - width / 3;
     return !w->panel_is_open ? 0 : wanted < most ? wanted : most;
 }
 
@@ -107,12 +109,37 @@ static void send_size(view_window *w)
     viewer_send(w->viewer, &event);
 }
 
+/* Where there is room, the window becomes wider by the panel, so that the picture stays as it is; or narrower again. */
+static void make_room(view_window *w, int is_open)
+{
+    float pixels, scale;
+    int width, height, x, y;
+    SDL_Rect screen;
+    const Uint32 whole = SDL_WINDOW_MAXIMIZED | SDL_WINDOW_FULLSCREEN;
+    get_scale(w->window, &pixels, &scale);
+    SDL_GetWindowSize(w->window, &width, &height);
+    SDL_GetWindowPosition(w->window, &x, &y);
+    if (!is_open && w->grown && width > w->grown)
+        SDL_SetWindowSize(w->window, width - w->grown, height);
+    const int wanted = is_open ? (int)(panel_width * scale / pixels) : 0;
+    w->grown = 0;
+    if (!is_open || (SDL_GetWindowFlags(w->window) & whole) ||
+        SDL_GetDisplayUsableBounds(SDL_GetWindowDisplayIndex(w->window), &screen) || width + wanted > screen.w)
+        return;
+    w->grown = wanted;
+    if (x + width + wanted > screen.x + screen.w)
+        SDL_SetWindowPosition(w->window, screen.x + screen.w - width - wanted, y);
+    SDL_SetWindowSize(w->window, width + wanted, height);
+}
+
 static void open_panel(view_window *w, int is_open)
 {
     const view_event event = {.kind = VIEW_PANEL,
                               .panel = !w->panel ? VIEW_PANEL_ABSENT
                                        : is_open ? VIEW_PANEL_OPEN
                                                  : VIEW_PANEL_CLOSED};
+    if (w->panel && w->panel_is_open != is_open)
+        make_room(w, is_open);
     w->panel_is_open = w->panel && is_open;
     viewer_send(w->viewer, &event);
     send_size(w);

@@ -15,6 +15,7 @@ typedef struct view_window {
     SDL_Window *window;
     view_panel *panel; /* NULL: this build has none */
     int panel_is_open;
+    int grown;                 /* units that the window is wider by for the panel */
     char *dropped;             /* files so far, a line each; NULL: none */
     SDL_Thread *dialog_thread; /* that waits for the dialog; NULL: there was none */
     process_child dialog;
