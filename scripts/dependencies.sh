@@ -19,7 +19,7 @@ packages_of() {
     demo)   echo libisal-dev libarchive-dev libfreetype-dev fonts-dejavu-core ;;   # cgt-render, without modules
     render) packages_of demo
             echo g++ libopenimageio-dev libassimp-dev libtinygltf-dev nlohmann-json3-dev \
-                 libsdl2-dev libfontconfig-dev ;;                                  # with them, and cgt-view
+                 libsdl2-dev libimgui-dev libfontconfig-dev ;;                                # with them, and cgt-view
     tests)  echo ninja-build libcmocka-dev libembree-dev openimageio-tools pkg-config binutils g++ \
                  assimp-testmodels glmark2-data gnuplot-nox \
                  ffmpeg libopenmpi-dev openmpi-bin lammps liblammps-dev python3-lammps \

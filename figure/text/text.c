@@ -12,6 +12,22 @@
 
 #include "options/numbers.h"
 
+const char *cgt_text_find_file(void)
+{
+    static const char *const places[] = {
+        "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+        "/usr/share/fonts/TTF/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf",
+        "/usr/local/share/fonts/dejavu/DejaVuSans.ttf"};
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+        FILE *const file = fopen(places[i], "rb");
+        if (file) {
+            fclose(file);
+            return places[i];
+        }
+    }
+    return NULL;
+}
+
 #ifdef CGT_HAVE_FREETYPE
 
 #ifdef CGT_HAVE_FONTCONFIG
@@ -154,16 +170,8 @@ static FT_Face face_of(const text_font *font, uint32_t code)
 
 static FT_Error open_face(text_font *font, const char *path)
 {
-    static const char *const places[] = {
-        "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
-        "/usr/share/fonts/TTF/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf",
-        "/usr/local/share/fonts/dejavu/DejaVuSans.ttf"};
-    if (path)
-        return FT_New_Face(font->library, path, 0, &font->face);
-    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)
-        if (FT_New_Face(font->library, places[i], 0, &font->face) == 0)
-            return 0;
-    return 1;
+    const char *const file = path ? path : cgt_text_find_file();
+    return file ? FT_New_Face(font->library, file, 0, &font->face) : 1;
 }
 
 text_font *cgt_text_open(const char *path, float pixels, char *error, size_t error_size)

@@ -13,6 +13,9 @@
 
 typedef struct text_font text_font;
 
+/* Where DejaVu Sans is; NULL: not where distributions put it. */
+const char *cgt_text_find_file(void);
+
 /* Opens a font file; path NULL: DejaVu Sans where distributions put it. pixels: size of the font, 1 to 1000. Returns
  * NULL with a sentence in error. A font is for one thread at a time. */
 text_font *cgt_text_open(const char *path, float pixels, char *error, size_t error_size);

@@ -46,6 +46,7 @@ long process_feed(process_child *child, const void *bytes, size_t size);
 
 void process_close_pipe(process_child *child);
 void process_kill(process_child *child);
+void process_interrupt(process_child *child); /* asks it to end, where the system has such a thing */
 
 /* Whether it has ended; wait: waits for that. *code: its exit code; -1 with a sentence in reason: it was ended by
  * something else. */

@@ -148,6 +148,7 @@ void process_close_pipe(process_child *child)
 }
 
 void process_kill(process_child *child) { kill((pid_t)child->process, SIGKILL); }
+void process_interrupt(process_child *child) { kill((pid_t)child->process, SIGTERM); }
 
 int process_has_ended(process_child *child, int wait, int *code, char *reason, size_t reason_size)
 {

@@ -124,6 +124,7 @@ void process_close_pipe(process_child *child)
 }
 
 void process_kill(process_child *child) { TerminateProcess((HANDLE)child->process, 1); }
+void process_interrupt(process_child *child) { process_kill(child); }
 
 int process_has_ended(process_child *child, int wait, int *code, char *reason, size_t reason_size)
 {

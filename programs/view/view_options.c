@@ -37,6 +37,11 @@ static const struct {
                 {"cell-assignment", is_of_cell},
                 {"cell-program", is_of_cell}};
 
+#ifdef CGT_HAVE_PANEL
+#define PANEL ", o opens a panel of all options"
+#else
+#define PANEL ". This build has no panel of options: it needs Dear ImGui"
+#endif
 #define AT(type_, member) .type = OPTION_##type_, .at = offsetof(view_options, member)
 
 static const option_row own_rows[] = {
@@ -53,8 +58,8 @@ static const option_row own_rows[] = {
      AT(TEXT, keys), .is_running = 1},
     {"script", 0, "FILE",
      "Take events from this file, a line each, and end after the last: press or release BUTTON X Y; move, click or "
-     "double X Y; wheel TURNS X Y; key NAME, as Space or Shift+D; size W H; settle, until the picture is complete; "
-     "wait SECONDS; shot FILE, the window as .png; say, the state; close",
+     "double X Y; wheel TURNS X Y; key NAME, as Space, Shift+D or Ctrl+Z; text WORDS; drop FILE; size W H; settle, "
+     "until the picture and a movie are complete; wait SECONDS; shot FILE, the window as .png; say, the state; close",
      AT(TEXT, script), .is_running = 1},
 };
 
@@ -66,6 +71,11 @@ static const char *why_left_out(const char *name)
         if (strcmp(name, left_out[i].name) == 0)
             return left_out[i].why;
     return NULL;
+}
+
+const char *view_options_why_not(const char *name)
+{
+    return strcmp(name, "size") == 0 ? "the window has its own" : why_left_out(name);
 }
 
 static int finish(void *options, const char **operands, size_t count, char *error, size_t size)
@@ -84,7 +94,10 @@ static int finish(void *options, const char **operands, size_t count, char *erro
         snprintf(error, size, "--transparent: \"%s\" holds no opacity; .png does", o->pictures);
         return -1;
     }
-    return render_options_finish(&o->render, operands, count, error, size);
+    o->render.print_settings = count == 0; /* which is no error here: the window asks for a file */
+    const int result = render_options_finish(&o->render, operands, count, error, size);
+    o->render.print_settings = 0;
+    return result;
 }
 
 /* The rows of cgt-render, each heading with the first that is kept, and the window's own. */
@@ -132,11 +145,12 @@ void view_options_parse(view_options *o, int argc, char **argv)
     const option_table table = {
         .rows = rows,
         .count = join_rows(rows),
-        .arguments = "FILE...",
+        .arguments = "[FILE...]",
         .text = "Shows the moving spheres or triangles of a trajectory in a window, as cgt-render draws them: all "
                 "that cgt-render reads, and its options for looks.\v"
                 "Drag to turn, with the right button to pan, the wheel zooms to the pointer, a click tells what is "
-                "there, a double click makes it what everything turns about; h lists all keys. While something moves "
+                "there, a double click makes it what everything turns about; h lists all keys" PANEL
+                ". While something moves "
                 "pictures are drawn without soft light; at rest they grow to what cgt-render writes. The key s writes "
                 "that picture, and prints the command line of cgt-render that makes the same file.",
         .finish = finish,

@@ -23,4 +23,7 @@ typedef struct view_options {
  * Ends the program on --help, --version and errors, as render_options_parse does. */
 void view_options_parse(view_options *options, int argc, char **argv);
 
+/* Why an option cannot change while the window is open; NULL: it can. */
+const char *view_options_why_not(const char *name);
+
 #endif

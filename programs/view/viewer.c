@@ -13,12 +13,18 @@
 #include <string.h>
 #include <time.h>
 
+#include "view/view_recent.h"
+
 /* ---- Messages ----------------------------------------------------------------------------------------------- */
 
 static void add_message(viewer *v, const char *text)
 {
     pthread_mutex_lock(&v->lock);
-    for (uint32_t i = VIEW_MESSAGES - 1; i > 0; i--)
+    uint32_t same = 0; /* what was said before is not said twice */
+    while (same < v->messages && strncmp(v->message[same].text, text, sizeof v->message[same].text - 1) != 0)
+        same++;
+    v->messages -= same < v->messages;
+    for (uint32_t i = same < VIEW_MESSAGES ? same : VIEW_MESSAGES - 1; i > 0; i--)
         v->message[i] = v->message[i - 1];
     snprintf(v->message[0].text, sizeof v->message[0].text, "%s", text);
     v->message[0].until = 0.0;
@@ -53,7 +59,7 @@ static void age_messages(viewer *v)
     pthread_mutex_lock(&v->lock);
     for (uint32_t i = 0; i < v->messages; i++)
         if (v->message[i].until == 0.0) {
-            v->message[i].until = v->draw ? v->now + stay : INFINITY;
+            v->message[i].until = v->draw || !v->options.render.input_count ? v->now + stay : INFINITY;
             v->changed = 1;
         }
     while (v->messages && v->message[v->messages - 1].until <= v->now) {
@@ -65,7 +71,7 @@ static void age_messages(viewer *v)
 
 /* ---- Begin and end ------------------------------------------------------------------------------------------ */
 
-static void on_frames(void *user)
+void viewer_on_frames(void *user)
 {
     viewer *const v = user;
     pthread_mutex_lock(&v->lock);
@@ -86,22 +92,27 @@ viewer *viewer_create(const view_options *options, void (*wake)(void *user), voi
     v->shrink = 1;
     v->scale = 1.0f;
     v->rate = options->render.output.rate > 0.0 ? options->render.output.rate : 30.0;
-    v->outdated = v->changed = v->is_arriving = 1;
+    v->outdated = v->changed = v->is_arriving = v->is_new = 1;
     pthread_mutex_init(&v->lock, NULL);
     pthread_mutex_init(&v->picture_lock, NULL);
     program_set_error_sink(on_error, v);
-    v->draw = view_draw_open(options);
+    v->draw = options->render.input_count ? view_draw_open(options) : NULL;
     if (v->draw) {
         cgt_figure_get_camera(v->draw->figure, &v->camera);
         cgt_figure_get_up(v->draw->figure, v->axis);
         view_camera_straighten(&v->camera);
         memcpy(v->pivot, v->camera.target, sizeof v->pivot);
-        v->frames = view_draw_start_frames(v->draw, (size_t)options->render.memory_mib << 20, on_frames, v);
+        viewer_publish(v);
+        v->frames = view_draw_start_frames(v->draw, (size_t)options->render.memory_mib << 20, viewer_on_frames, v);
     }
+    if (v->frames)
+        view_recent_add(options->render.input);
     if (v->draw && !v->frames) {
         view_draw_close(v->draw);
         v->draw = NULL;
     }
+    if (!v->draw && options->render.input_count)
+        v->options.render.settings = NULL; /* what opens took them over */
     if (viewer_picture_resize(v, options->render.figure.width, options->render.figure.height, 1.0f)) {
         viewer_free(v);
         return NULL;
@@ -120,13 +131,22 @@ void viewer_free(viewer *v)
     if (!v)
         return;
     viewer_stop(v);
+    viewer_stop_movie(v);
+    viewer_watch_movie(v, 1);
     view_draw_stop(v->draw);
     view_frames_release(v->frames, v->shown);
     view_frames_finish(v->frames);
+    viewer_forget_settings(v);
     view_draw_close(v->draw);
     program_set_error_sink(NULL, NULL);
+    viewer_free_options(v);
+    viewer_free_selection(v);
+    viewer_free_opened(&v->opened);
+    for (size_t i = 0; i < v->event_count; i++)
+        free(v->events[i].text);
     cgt_text_close(v->font);
     free(v->events);
+    free(v->clipboard);
     free(v->rgb);
     free(v->over);
     free(v->pixels);
@@ -141,8 +161,12 @@ void viewer_send(viewer *v, const view_event *event)
 {
     pthread_mutex_lock(&v->lock);
     view_event *const last = v->event_count ? &v->events[v->event_count - 1] : NULL;
-    if (last && last->kind == event->kind && (event->kind == VIEW_MOVE || event->kind == VIEW_RESIZE)) {
+    const int is_put_on = last && event->kind == VIEW_PUT && event->continues && last->option == event->option;
+    if (last && last->kind == event->kind && (event->kind == VIEW_MOVE || event->kind == VIEW_RESIZE || is_put_on)) {
+        const int continues = last->continues;
+        free(last->text);
         *last = *event; /* where the pointer was is of no use */
+        last->continues = continues;
     } else {
         if (v->event_count == v->event_room) {
             view_event *more = realloc(v->events, (2 * v->event_room + 64) * sizeof *more);
@@ -151,6 +175,8 @@ void viewer_send(viewer *v, const view_event *event)
         }
         if (v->events && v->event_count < v->event_room)
             v->events[v->event_count++] = *event;
+        else
+            free(event->text);
     }
     v->sent = v->sent > 0.0 ? v->sent : program_seconds();
     v->stop = 1;
@@ -185,8 +211,10 @@ static double take_events(viewer *v)
     v->changed |= v->is_woken;
     v->is_woken = 0;
     pthread_mutex_unlock(&v->lock);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
         viewer_handle(v, &events[i]);
+        free(events[i].text);
+    }
     free(events);
     return sent;
 }
@@ -227,14 +255,18 @@ static void take_frame(viewer *v)
     const double begin = program_seconds();
     v->scene_is_wrong = viewer_show_frame(v, frame) != 0;
     v->build_cost = 0.8 * v->build_cost + 0.2e3 * (program_seconds() - begin);
+    const int is_first = !v->shown;
     view_frames_release(v->frames, v->shown);
     v->shown = frame;
+    if (is_first) /* with the columns */
+        viewer_publish(v);
     v->is_arriving = v->is_arriving && !figure_run_shows(frame->kept);
     v->wanted += (uint64_t)v->is_arriving;
     v->outdated = 1;
     v->changed = 1;
     v->playing = v->scene_is_wrong ? 0 : v->playing;
     viewer_follow_picks(v);
+    viewer_follow_selection(v);
 }
 
 double viewer_step(viewer *v, double now)
@@ -253,17 +285,18 @@ double viewer_step(viewer *v, double now)
     } else {
         age_messages(v);
     }
+    wait = fmin(wait, viewer_watch_movie(v, 0));
     if (v->changed) {
         viewer_compose(v);
         count_wait(v, sent);
     }
-    if (v->messages && v->draw)
+    if (v->messages)
         wait = fmin(wait, 0.5);
     return wait;
 }
 
 int viewer_wants_end(const viewer *v) { return v->wants_end; }
-int viewer_has_failed(const viewer *v) { return !v->draw; }
+int viewer_has_failed(const viewer *v) { return !v->draw && v->options.render.input_count; }
 
 /* ---- Asking ------------------------------------------------------------------------------------------------- */
 
@@ -291,15 +324,22 @@ void viewer_peek(viewer *v, view_picture *p)
 
 void viewer_give_back(viewer *v) { pthread_mutex_unlock(&v->picture_lock); }
 
-int viewer_take_clipboard(viewer *v, char *text, size_t size)
+char *viewer_take_clipboard(viewer *v)
 {
     pthread_mutex_lock(&v->lock);
-    const int has = v->has_clipboard;
-    if (has)
-        snprintf(text, size, "%s", v->clipboard);
-    v->has_clipboard = 0;
+    char *const text = v->clipboard;
+    v->clipboard = NULL;
     pthread_mutex_unlock(&v->lock);
-    return has;
+    return text;
+}
+
+view_request viewer_take_request(viewer *v)
+{
+    pthread_mutex_lock(&v->lock);
+    const view_request request = v->request;
+    v->request = VIEW_ASKS_NOTHING;
+    pthread_mutex_unlock(&v->lock);
+    return request;
 }
 
 void viewer_describe(const viewer *v, char *text, size_t size)

@@ -2,9 +2,11 @@
  * SPDX-License-Identifier: MIT
  *
  * Events of the viewer: what hand and keys change. */
+#define _POSIX_C_SOURCE 200809L
 #include "view/viewer_internal.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static void camera_moved(viewer *v)
@@ -53,6 +55,24 @@ void viewer_move_to(viewer *v, uint64_t frame)
     v->changed = 1;
 }
 
+/* ---- The panel ---------------------------------------------------------------------------------------------- */
+
+static void ask(viewer *v, view_request request)
+{
+    pthread_mutex_lock(&v->lock);
+    v->request = request;
+    pthread_mutex_unlock(&v->lock);
+    v->changed = 1; /* the window looks for it when a picture comes */
+}
+
+static void ask_panel(viewer *v)
+{
+    if (v->panel == VIEW_PANEL_ABSENT)
+        viewer_say(v, "this build has no panel of options: it needs Dear ImGui");
+    else
+        ask(v, VIEW_ASKS_PANEL);
+}
+
 /* ---- The hand ----------------------------------------------------------------------------------------------- */
 
 /* To where the pointer is along the bar. */
@@ -70,6 +90,10 @@ static void press(viewer *v, const view_event *e)
     v->pressed_x = v->x = e->x;
     v->pressed_y = v->y = e->y;
     v->dragged = 0;
+    if (e->button == 1 && viewer_button_at(v, e->x, e->y)) {
+        ask_panel(v);
+        return;
+    }
     if (e->button == 1 && row >= 0) {
         viewer_take_list(v, row);
         return;
@@ -151,6 +175,17 @@ static void look_along(viewer *v, int axis, int from_below)
     camera_moved(v);
 }
 
+/* As the option view has it. */
+static void look_from(viewer *v, const char *side)
+{
+    static const char *const sides[] = {"front", "back", "right", "left", "top", "bottom"};
+    const int up = v->axis[1] != 0.0f ? 1 : v->axis[0] != 0.0f ? 0 : 2, front = up == 1 ? 2 : 1, right = 3 - up - front;
+    const int axes[] = {front, front, right, right, up, up}, front_is_below = up == 2;
+    for (int i = 0; i < 6; i++)
+        if (strcmp(side, sides[i]) == 0)
+            look_along(v, axes[i], (i & 1) ^ (i < 2 && front_is_below));
+}
+
 static void fit(viewer *v)
 {
     cgt_figure *const figure = v->draw->figure;
@@ -225,9 +260,18 @@ static void time_key(viewer *v, int key, int shift)
     }
 }
 
-static void key(viewer *v, int key, int shift)
+static void key(viewer *v, int key, int shift, int control)
 {
     v->changed = 1;
+    if (control) {
+        if (key == 'z')
+            viewer_undo(v);
+        else if (key == 'o')
+            ask(v, VIEW_ASKS_FILE);
+        else if (key == 's')
+            viewer_save_settings(v);
+        return;
+    }
     if (list_key(v, key))
         return;
     switch (key) {
@@ -238,7 +282,10 @@ static void key(viewer *v, int key, int shift)
     case 'x':
     case 'y':
     case 'z': look_along(v, key - 'x', shift); break;
-    case 'o': view_draw_has(v->draw, "ortho") ? viewer_unset(v, "ortho") : viewer_set(v, "ortho", NULL); break;
+    case 'o': ask_panel(v); break;
+    case 'u': viewer_undo(v); break;
+    case 'r': viewer_read_anew(v); break;
+    case 'p': view_draw_has(v->draw, "ortho") ? viewer_unset(v, "ortho") : viewer_set(v, "ortho", NULL); break;
     case 'l': viewer_open_list(v); break;
     case 'd':
     case VIEW_KEY_DELETE: viewer_hide(v, shift, 0); break;
@@ -246,9 +293,24 @@ static void key(viewer *v, int key, int shift)
     case 'a': viewer_show_all(v); break;
     case 's': viewer_write_picture(v); break;
     case 'k': viewer_add_key(v); break;
-    case 'c': viewer_copy_camera(v); break;
+    case 'm': viewer_start_movie(v, shift ? 360.0f : 0.0f); break;
+    case 'c': shift ? viewer_copy_command(v) : viewer_copy_camera(v); break;
     default: time_key(v, key, shift); break;
     }
+}
+
+static void open_files(viewer *v, const char *paths)
+{
+    const size_t first = strcspn(paths, "\n"), ending = sizeof ".settings" - 1;
+    if (first > ending && strncmp(paths + first - ending, ".settings", ending) == 0) {
+        char *const path = strndup(paths, first);
+        if (path)
+            viewer_load_settings(v, path);
+        free(path);
+    } else {
+        viewer_open(v, paths);
+    }
+    v->changed = 1;
 }
 
 void viewer_handle(viewer *v, const view_event *e)
@@ -258,16 +320,35 @@ void viewer_handle(viewer *v, const view_event *e)
             v->wants_end = 1;
         return;
     }
-    if (!v->draw) { /* there is a message to read, no more */
+    if (e->kind == VIEW_PANEL) {
+        v->panel = e->panel;
+        v->changed = 1;
+        return;
+    }
+    if (e->kind == VIEW_OPEN) {
+        open_files(v, e->text);
+        return;
+    }
+    if (!v->draw) { /* there is a message to read, or a file to be named */
+        if (e->kind == VIEW_KEY && e->control && e->key == 'o')
+            ask(v, VIEW_ASKS_FILE);
         v->wants_end |= e->kind == VIEW_KEY && (e->key == 'q' || e->key == VIEW_KEY_ESCAPE);
         return;
     }
+    v->is_new &= e->kind != VIEW_PRESS && e->kind != VIEW_WHEEL && e->kind != VIEW_KEY;
     switch (e->kind) {
     case VIEW_PRESS: press(v, e); break;
     case VIEW_MOVE: move(v, e); break;
     case VIEW_RELEASE: release(v, e); break;
     case VIEW_WHEEL: zoom(v, e); break;
-    case VIEW_KEY: key(v, e->key, e->shift); break;
-    case VIEW_RESIZE: break;
+    case VIEW_KEY: key(v, e->key, e->shift, e->control); break;
+    case VIEW_PUT: viewer_take_put(v, e); break;
+    case VIEW_LOOK: look_from(v, e->text); break;
+    case VIEW_SELECT: e->text ? viewer_select(v, e->text) : viewer_select_picks(v); break;
+    case VIEW_USE: viewer_use_selection(v, e->text); break;
+    case VIEW_COPY: strcmp(e->text, "python") == 0 ? viewer_copy_python(v) : viewer_copy_command(v); break;
+    case VIEW_RESIZE:
+    case VIEW_OPEN:
+    case VIEW_PANEL: break;
     }
 }

@@ -8,24 +8,64 @@
 #include <pthread.h>
 
 #include "common/program.h"
+#include "data/measure.h"
+#include "options/figure_settings.h"
+#include "system/process.h"
 #include "text/text.h"
 #include "view/view_camera.h"
 #include "view/view_draw.h"
 #include "view/viewer.h"
 
-enum { VIEW_PICKS = 3, VIEW_MESSAGES = 6, VIEW_LIST_MOST = 300, VIEW_LEVELS = 6 };
+enum { VIEW_CHANGES = 100, VIEW_SENTENCE = 1024 };
+enum { VIEW_PICKS = MEASURE_MOST, VIEW_MESSAGES = 6, VIEW_LIST_MOST = 300, VIEW_LEVELS = 6 };
 
 /* A sphere or triangle that was clicked. It is followed through the frames by its id, where there are ids. */
 typedef struct view_pick {
     uint32_t element; /* in the frame that is shown; UINT32_MAX: it is not there */
     uint32_t id;
-    float place[3]; /* centre of a sphere, hit of a triangle */
+    float place[3];  /* centre of a sphere, hit of a triangle */
+    double share[2]; /* of the triangle's second and third corner */
 } view_pick;
 
 typedef struct view_message {
     char text[512];
     double until; /* seconds; 0: it was not yet seen */
 } view_message;
+
+/* An option as other threads see it, each NULL for "". */
+typedef struct view_option {
+    char *values;  /* as cgt_figure_get has them */
+    char *refused; /* why what was put last is not among them */
+} view_option;
+
+/* What a file that was opened in the window needs: the names of files, and the texts of the options. */
+typedef struct view_opened {
+    char *paths, **inputs;
+    figure_settings settings;
+} view_opened;
+
+/* What a formula selects. */
+typedef struct view_filter {
+    char *formula; /* NULL: none */
+    int64_t count; /* of the shown frame; -1: the formula is wrong */
+    int is_followed;
+    double center[3]; /* where the middle was */
+} view_filter;
+
+/* A movie that is being made by cgt-render. */
+typedef struct view_movie {
+    int is_made, is_stopped;
+    process_child child;
+    FILE *messages;
+    char name[64], log[1024];
+    uint64_t frames; /* so far */
+} view_movie;
+
+/* What can be undone. */
+typedef struct view_change {
+    uint32_t option;
+    char *before; /* its values */
+} view_change;
 
 typedef enum view_quality {
     VIEW_PLAIN = CGT_FIGURE_PLAIN,
@@ -39,7 +79,8 @@ struct viewer {
     view_options options;
     void (*wake)(void *user);
     void *user;
-    view_draw *draw; /* NULL: the input could not be opened */
+    view_draw *draw; /* NULL: the input could not be opened, or there is none */
+    view_opened opened;
     view_frames *frames;
     double now;
     int wants_end;
@@ -60,6 +101,7 @@ struct viewer {
     /* The user's hand. */
     view_drag drag;
     int dragged; /* the button moved since it was pressed */
+    int is_new;  /* nobody has pressed anything yet */
     float x, y, pressed_x, pressed_y;
 
     /* The picture without what lies over it. */
@@ -86,8 +128,13 @@ struct viewer {
     uint32_t list_count;
     view_pick pick[VIEW_PICKS];
     uint32_t picks;
-    char clipboard[512];
-    int has_clipboard;
+    int has_bond; /* the two are the ends of one */
+    view_filter filter;
+    view_movie movie;
+    char *clipboard; /* NULL: nothing new */
+    view_change change[VIEW_CHANGES];
+    uint32_t change_count;
+    int panel; /* view_panel_state */
 
     stop_flag stop; /* ends the picture at hand */
     stop_flag closing;
@@ -98,6 +145,12 @@ struct viewer {
     int is_woken; /* frames have arrived, or messages */
     view_message message[VIEW_MESSAGES];
     uint32_t messages;
+    view_option option[OPTIONS_MOST];
+    char *columns;
+    char *formula;   /* of the selection, where it was made from what was picked; NULL: nothing new */
+    char *selection; /* how many spheres the formula selects, or what is wrong with it; NULL: there is none */
+    uint64_t options_version;
+    view_request request;
     pthread_mutex_t picture_lock; /* of all below */
     uint32_t *pixels;
     uint32_t pixels_width, pixels_height;
@@ -106,11 +159,24 @@ struct viewer {
     char title[256];
 };
 
-/* viewer_set.c: an option of the figure: sets it, or takes it back, and what is seen follows; or a sentence tells why
- * not. Return 0 or -1. All controls of looks go this way. */
+/* viewer_set.c: all controls of looks go this way. Makes these lines all values of an option, and what is seen follows;
+ * or nothing changes and a sentence tells why. Returns 0 or -1. */
+typedef enum view_put {
+    VIEW_PUT_NEW,
+    VIEW_PUT_ON, /* goes on with the last change, as a slider does */
+    VIEW_PUT_BACK
+} view_put;
+int viewer_put(viewer *v, const char *name, const char *lines, view_put how, char *why, size_t size);
+void viewer_take_put(viewer *v, const view_event *event);
+void viewer_undo(viewer *v);
+
+/* The same of one value, which is added where the option repeats, and of none; the sentence is printed. */
 int viewer_set(viewer *v, const char *name, const char *value);
 int viewer_unset(viewer *v, const char *name);
+
 int viewer_show_frame(viewer *v, view_frame *frame); /* makes it the one that is drawn; the same results */
+void viewer_publish(viewer *v);                      /* other threads see the options as they are now */
+void viewer_free_options(viewer *v);
 
 /* viewer_events.c: changes the state. */
 void viewer_handle(viewer *v, const view_event *event);
@@ -126,6 +192,7 @@ uint32_t viewer_band(uint32_t height); /* rows of a band */
 /* viewer_panels.c: draws what lies over the picture, which is in v->over. */
 void viewer_draw_panels(viewer *v);
 int viewer_bar_at(const viewer *v, float x, float y, double *share); /* whether that is on the bar; where along it */
+int viewer_button_at(const viewer *v, float x, float y);             /* whether that is on the button of the panel */
 int viewer_list_row(const viewer *v, float x, float y);              /* of the list; -1: none */
 
 /* viewer_select.c */
@@ -136,13 +203,37 @@ void viewer_open_list(viewer *v);
 void viewer_take_list(viewer *v, int row);
 void viewer_hide(viewer *v, int kind, int only);
 void viewer_show_all(viewer *v);
+void viewer_select_picks(viewer *v); /* the formula becomes that of what was picked */
+
+/* viewer_filter.c: a formula's spheres; "": none. what: hide, show, fade, label or follow. */
+void viewer_select(viewer *v, const char *formula);
+void viewer_use_selection(viewer *v, const char *what);
+void viewer_follow_selection(viewer *v); /* after a new frame */
+void viewer_free_selection(viewer *v);
+
+/* viewer_open.c: what fails leaves all as it is, with the message printed. Paths are lines. */
+void viewer_open(viewer *v, const char *paths);
+void viewer_read_anew(viewer *v);
+int viewer_read_by(viewer *v, const char *name, const char *values); /* other values of an option: 0 or -1 */
+void viewer_load_settings(viewer *v, const char *path);
+void viewer_save_settings(viewer *v);
+void viewer_forget_settings(viewer *v); /* of a command line without a file */
+void viewer_free_opened(view_opened *opened);
+
+/* viewer_movie.c: of all frames, and with an orbit of so many degrees; or ends the one that is being made. */
+void viewer_start_movie(viewer *v, float orbit);
+void viewer_stop_movie(viewer *v);
+double viewer_watch_movie(viewer *v, int waits); /* returns in how many seconds to look again */
 
 /* viewer_out.c */
 void viewer_write_picture(viewer *v);
 void viewer_add_key(viewer *v);
 void viewer_copy_camera(viewer *v);
+void viewer_copy_command(viewer *v);
+void viewer_copy_python(viewer *v);
 
 /* viewer.c */
+void viewer_on_frames(void *user); /* frames have arrived; any thread */
 void viewer_say(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 static inline uint64_t viewer_number(const viewer *v, uint64_t chosen)

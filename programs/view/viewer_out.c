@@ -52,7 +52,10 @@ void viewer_write_picture(viewer *v)
         return;
     char *const settings = view_draw_settings(v->draw);
     if (settings && view_draw_write(v->draw, settings, name) == 0) {
-        view_draw_print_command(v->draw, settings, v->shown->frame.number, pattern);
+        char *const command = view_command(v->draw, settings, v->shown->frame.number, pattern);
+        printf("%s", command ? command : "");
+        fflush(stdout);
+        free(command);
         viewer_say(v, "wrote %s", name);
     }
     free(settings);
@@ -151,17 +154,52 @@ void viewer_add_key(viewer *v)
     free(camera);
 }
 
-void viewer_copy_camera(viewer *v)
+/* ---- The clipboard ------------------------------------------------------------------------------------------ */
+
+/* Takes the text over, and prints it, too. */
+static void copy(viewer *v, char *text, const char *what)
 {
-    char *const text = camera_text(v);
     if (!text)
         return;
-    pthread_mutex_lock(&v->lock);
-    snprintf(v->clipboard, sizeof v->clipboard, "-c %s", text);
-    v->has_clipboard = 1;
-    pthread_mutex_unlock(&v->lock);
-    printf("-c %s\n", text);
+    printf("%s%s", text, text[0] && text[strlen(text) - 1] == '\n' ? "" : "\n");
     fflush(stdout);
-    viewer_say(v, "the camera is in the clipboard, as -c takes it");
+    pthread_mutex_lock(&v->lock);
+    free(v->clipboard);
+    v->clipboard = text;
+    pthread_mutex_unlock(&v->lock);
+    viewer_say(v, "%s in the clipboard", what);
+}
+
+void viewer_copy_camera(viewer *v)
+{
+    char *const text = camera_text(v), *copied = text ? malloc(strlen(text) + 4) : NULL;
+    if (copied)
+        sprintf(copied, "-c %s", text);
+    copy(v, copied, "the camera is, as -c takes it,");
     free(text);
+}
+
+/* Settings of the picture at hand; NULL: there is none. */
+static char *settings_of_picture(viewer *v)
+{
+    if (!v->shown || v->scene_is_wrong || view_draw_tell(v->draw, cgt_figure_set_camera(v->draw->figure, &v->camera)))
+        return NULL;
+    return view_draw_settings(v->draw);
+}
+
+void viewer_copy_command(viewer *v)
+{
+    char *const settings = settings_of_picture(v);
+    if (settings)
+        copy(v, view_command(v->draw, settings, v->shown->frame.number, v->options.pictures),
+             "the command line of the picture is");
+    free(settings);
+}
+
+void viewer_copy_python(viewer *v)
+{
+    char *const settings = settings_of_picture(v);
+    if (settings)
+        copy(v, view_command_python(v->draw, settings, v->shown->frame.number), "Python for the picture is");
+    free(settings);
 }

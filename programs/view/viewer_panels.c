@@ -103,11 +103,28 @@ static void draw_status(viewer *v, const view_frames_state *s)
             snprintf(state, sizeof state, "  grows");
         if (v->frame_ms > 0.0 && viewer_is_moving(v) && *state == '\0')
             snprintf(state, sizeof state, "  %.0f pictures/s", 1e3 / v->frame_ms);
-        snprintf(line[0], sizeof line[0], "%s %llu of %llu%s%s%s   h: help", v->playing ? "playing" : "frame",
-                 (unsigned long long)f->number, (unsigned long long)s->count, s->is_final ? "" : "+", time, state);
+        if (v->movie.is_made)
+            snprintf(state, sizeof state, "  movie: %llu frames", (unsigned long long)v->movie.frames);
+        snprintf(line[0], sizeof line[0], "%s %llu of %llu%s%s%s   %sh: help", v->playing ? "playing" : "frame",
+                 (unsigned long long)f->number, (unsigned long long)s->count, s->is_final ? "" : "+", time, state,
+                 !v->is_new ? ""
+                 : v->panel ? "drag: turn   click: ask   o: options   "
+                            : "drag: turn   click: ask   ");
     }
     panel(v, 6.0f * v->scale, (s->count > 1 ? bar_top(v) : (float)v->height) - 32.0f * v->scale, 0,
           (const char(*)[128])line, 1, -1);
+}
+
+/* ---- The button of the panel of options ----------------------------------------------------------------------- */
+
+static const char button_text[][128] = {"options: o"};
+
+/* From the top at the right: where there is a panel, and it is closed. */
+int viewer_button_at(const viewer *v, float x, float y)
+{
+    return v->panel == VIEW_PANEL_CLOSED && v->font && !v->list &&
+           y < 12.0f * v->scale + line_height(v) + 8.0f * v->scale &&
+           x >= (float)v->width - 28.0f * v->scale - cgt_text_width(v->font, button_text[0]);
 }
 
 /* ---- Panels ------------------------------------------------------------------------------------------------- */
@@ -115,7 +132,7 @@ static void draw_status(viewer *v, const view_frames_state *s)
 static const char help_lines[][128] = {
     "drag: turn       right or middle button: pan       wheel: zoom to the pointer",
     "double click: turn about that point       f: fit       x y z: along an axis (Shift: from behind)",
-    "o: perspective or parallel",
+    "p: perspective or parallel       o: options       u: undo",
     "",
     "space: play, pause       left, right: a frame (Shift: ten)       Page up, down: a tenth",
     "Home, End       + -: faster, slower       the bar below: drag",
@@ -125,9 +142,14 @@ static const char help_lines[][128] = {
     "l: colour by ...",
     "",
     "s: write the picture, and print the command line that makes it",
-    "k: add a key frame for --camera-keys       c: copy the camera",
+    "k: add a key frame for --camera-keys       c: copy the camera (Shift: the command line)",
+    "m: make a movie of all frames (Shift: that turns once), or end it",
+    "Ctrl+O: open a file, or drop it here       r: read it anew       Ctrl+S: save the settings",
     "h: this help       q: end",
 };
+
+/* Without a file. */
+static const char empty_lines[][128] = {"Drop a file here", "or press Ctrl+O to choose one.       q: end"};
 
 /* The first of the list's rows that are seen, and how many fit. */
 static int first_row(const viewer *v, int *rows)
@@ -223,6 +245,9 @@ void viewer_draw_panels(viewer *v)
         draw_bar(v, &state);
         draw_status(v, &state);
     }
+    if (!v->options.render.input_count)
+        panel(v, fmaxf(24.0f * v->scale, 0.5f * (float)v->width - 150.0f * v->scale), 0.45f * (float)v->height, 0,
+              empty_lines, sizeof empty_lines / sizeof empty_lines[0], 0);
     if (v->picks) {
         const float room = (float)v->height - 90.0f * v->scale;
         const uint32_t most = (uint32_t)fmaxf(2.0f, fminf(room / line_height(v), (float)PANEL_LINES));
@@ -231,6 +256,8 @@ void viewer_draw_panels(viewer *v)
     }
     if (v->list)
         draw_list(v);
+    else if (v->panel == VIEW_PANEL_CLOSED && v->draw)
+        panel(v, (float)v->width - 12.0f * v->scale, 12.0f * v->scale, 1, button_text, 1, -1);
     if (v->help)
         panel(v, 24.0f * v->scale, 40.0f * v->scale, 0, help_lines, sizeof help_lines / sizeof help_lines[0], -1);
     draw_messages(v);

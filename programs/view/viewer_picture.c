@@ -132,7 +132,8 @@ static double draw_better(viewer *v)
 int viewer_is_settled(const viewer *v)
 {
     return !v->draw || v->scene_is_wrong ||
-           (v->shown && v->wanted == v->shown->chosen && v->is_full && !v->outdated && !v->playing);
+           (v->shown && v->wanted == v->shown->chosen && v->is_full && !v->outdated && !v->playing &&
+            !v->movie.is_made);
 }
 
 double viewer_picture_step(viewer *v)
@@ -172,7 +173,7 @@ static void put_row(const uint8_t *rgb, uint32_t *pixels, uint32_t width, uint32
 
 static void set_title(viewer *v)
 {
-    const char *const input = v->options.render.input;
+    const char *const input = v->options.render.input ? v->options.render.input : "cgt-view";
     if (v->shown)
         snprintf(v->title, sizeof v->title, "%.180s: frame %llu", input, (unsigned long long)v->shown->frame.number);
     else

@@ -9,14 +9,43 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "options/numbers.h"
+#include "view/view_ask.h"
 #include "view/viewer_internal.h"
 
 /* ---- Selecting ---------------------------------------------------------------------------------------------- */
 
 static void set_place(const viewer *v, view_pick *p)
 {
-    if (v->shown->frame.kind == CGT_TRAJECTORY_SPHERES)
-        memcpy(p->place, v->shown->frame.xyzr + 4 * (size_t)p->element, sizeof p->place);
+    const cgt_trajectory_frame *const f = &v->shown->frame;
+    if (f->kind == CGT_TRAJECTORY_SPHERES)
+        memcpy(p->place, f->xyzr + 4 * (size_t)p->element, sizeof p->place);
+    else
+        view_ask_place(f, p->element, p->share, p->place);
+}
+
+static void add_pick(viewer *v, uint32_t element, const float place[3])
+{
+    const cgt_trajectory_frame *const f = &v->shown->frame;
+    view_pick *const p = &v->pick[v->picks++];
+    p->element = element;
+    p->id = f->id ? f->id[element] : element;
+    memcpy(p->place, place, sizeof p->place);
+    if (f->kind == CGT_TRAJECTORY_TRIANGLES)
+        view_ask_shares(f, element, place, p->share);
+    else
+        set_place(v, p);
+}
+
+/* Whether a sphere was picked before, which is then picked no more. Places on a triangle are never the same. */
+static int take_back(viewer *v, uint32_t element)
+{
+    for (uint32_t i = 0; i < v->picks && v->shown->frame.kind == CGT_TRAJECTORY_SPHERES; i++)
+        if (v->pick[i].element == element) {
+            memmove(v->pick + i, v->pick + i + 1, (--v->picks - i) * sizeof v->pick[0]);
+            return 1;
+        }
+    return 0;
 }
 
 void viewer_click(viewer *v, float x, float y)
@@ -28,25 +57,34 @@ void viewer_click(viewer *v, float x, float y)
         view_draw_tell(v->draw, cgt_figure_pick(figure, (uint32_t)x, (uint32_t)y, &hit)))
         return;
     v->changed = 1;
-    if (!hit.is_data) {
-        if (hit.is_hit)
-            viewer_say(v, "a bond, an arrow, a line or the mesh: not of the file's own");
-        return;
-    }
-    if (v->picks == VIEW_PICKS)
+    uint32_t ends[2];
+    if (hit.is_data) {
+        v->has_bond = 0;
+        if (take_back(v, hit.element))
+            return;
+        v->picks = v->picks < VIEW_PICKS ? v->picks : 0;
+        add_pick(v, hit.element, hit.place);
+    } else if (hit.is_hit && v->shown->frame.kind == CGT_TRAJECTORY_SPHERES && view_ask_bond(figure, &hit, ends)) {
         v->picks = 0;
-    view_pick *const p = &v->pick[v->picks++];
-    p->element = hit.element;
-    p->id = v->shown->frame.id ? v->shown->frame.id[hit.element] : hit.element;
-    memcpy(p->place, hit.place, sizeof p->place);
-    set_place(v, p);
+        v->has_bond = 1;
+        add_pick(v, ends[0], hit.place);
+        add_pick(v, ends[1], hit.place);
+    } else if (hit.is_hit) {
+        viewer_say(v, "an arrow, a line, the box, the floor or the mesh: not of the file's own");
+    }
 }
 
 void viewer_follow_picks(viewer *v)
 {
     const cgt_trajectory_frame *const f = &v->shown->frame;
-    for (uint32_t i = 0; i < v->picks && f->kind == CGT_TRAJECTORY_SPHERES; i++) {
+    for (uint32_t i = 0; i < v->picks; i++) {
         view_pick *const p = &v->pick[i];
+        if (f->kind == CGT_TRAJECTORY_TRIANGLES) { /* whose numbers are the same in all frames */
+            p->element = p->id < f->triangles ? p->id : UINT32_MAX;
+            if (p->element != UINT32_MAX)
+                set_place(v, p);
+            continue;
+        }
         uint32_t k = p->element; /* most files keep their order */
         if (!f->id) {
             k = p->id < f->count ? p->id : UINT32_MAX;
@@ -103,29 +141,24 @@ static void tell_pick(const viewer *v, const view_pick *p, lines *l)
              o[2] + (double)p->place[2]);
 }
 
-static void between(const view_pick *a, const view_pick *b, double to[3])
-{
-    for (int c = 0; c < 3; c++)
-        to[c] = (double)b->place[c] - (double)a->place[c];
-}
-
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
+/* Between all that were picked, and between the last of them; through the boundaries of a periodic box where that is
+ * nearer. */
 static void tell_measures(const viewer *v, lines *l)
 {
-    double a[3], b[3];
-    const view_pick *const p = v->pick;
-    if (v->picks >= 2) {
-        between(&p[v->picks - 2], &p[v->picks - 1], a);
-        tell(l, "distance of the last two  %.9g", sqrt(dot(a, a)));
-    }
-    if (v->picks == 3) {
-        between(&p[1], &p[0], a);
-        between(&p[1], &p[2], b);
-        const double both = sqrt(dot(a, a)) * sqrt(dot(b, b));
-        if (both > 0.0)
-            tell(l, "angle at the second  %.6g degrees",
-                 acos(fmax(-1.0, fmin(1.0, dot(a, b) / both))) * 57.29577951308232);
+    static const char *const names[] = {"distance", "angle", "dihedral"};
+    static const char *const wholes[] = {"", " at the second", " about the middle two"};
+    static const char *const none[] = {"not known", "none: two of them coincide", "none: three of them lie on a line"};
+    const periodic_box box = cgt_periodic_box_of(&v->shown->frame);
+    float place[VIEW_PICKS][3];
+    for (uint32_t i = 0; i < v->picks; i++)
+        memcpy(place[i], v->pick[i].place, sizeof place[i]);
+    for (uint32_t count = 2; count <= v->picks; count++) {
+        double value;
+        const float(*const last)[3] = (const float(*)[3])place + (v->picks - count);
+        const int is_known = cgt_measure(&box, last, count, &value);
+        tell(l, "%s%s  %s%s", names[count - 2], v->picks > count ? " of the last" : wholes[count - 2],
+             is_known ? cgt_number(count == 2 ? 9 : 6, value).text : none[count - 2],
+             is_known && count > 2 ? " degrees" : "");
     }
 }
 
@@ -147,6 +180,8 @@ uint32_t viewer_pick_lines(const viewer *v, char text[][128], uint32_t most)
     }
     if (there && v->picks > 1) {
         tell(&l, "%s", "");
+        if (v->has_bond && v->picks == 2)
+            tell(&l, "a bond of these two");
         tell_measures(v, &l);
     }
     return l.count;
@@ -167,8 +202,8 @@ static void add_name(viewer *v, const char *name)
 
 void viewer_open_list(viewer *v)
 {
-    v->list = !v->list;
-    if (!v->list || !v->shown)
+    v->list = !v->list && v->shown;
+    if (!v->list)
         return;
     const cgt_trajectory_frame *const f = &v->shown->frame;
     v->list_count = 0;
@@ -248,4 +283,22 @@ void viewer_show_all(viewer *v)
         line += length + 1;
     }
     free(shows);
+}
+
+void viewer_select_picks(viewer *v)
+{
+    char formula[512] = "";
+    int length = 0;
+    if (!v->shown || v->shown->frame.kind != CGT_TRAJECTORY_SPHERES || !v->picks) {
+        viewer_say(v, "click a sphere first");
+        return;
+    }
+    for (uint32_t i = 0; i < v->picks; i++)
+        length += snprintf(formula + length, sizeof formula - (size_t)length, "%s%s == %u", i ? " or " : "",
+                           v->shown->frame.id ? "id" : "index", v->pick[i].id);
+    viewer_select(v, formula);
+    pthread_mutex_lock(&v->lock);
+    free(v->formula);
+    v->formula = strdup(formula);
+    pthread_mutex_unlock(&v->lock);
 }

@@ -72,7 +72,7 @@ check figure "figure picture" "cgt/[a-z_]+\\.h|($standard|pthread)\\.h|(fontconf
 check mpi "mpi" "cgt/(mpi|picture)\\.h|($standard|sched|mpi)\\.h"
 check examples "examples programs" "cgt/[a-z_]+\\.h|($standard|getopt|lammps/library|mpi)\\.h"
 check programs "programs backends picture figure" \
-    "cgt/(bounces|cgt|color|figure|picture|research|trajectory|version)\\.h|[a-z]+|($standard|$posix|dlfcn|emscripten|spawn|direct|io|windows)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h|SDL2/SDL\\.h"
+    "cgt/(bounces|cgt|color|figure|picture|research|trajectory|version)\\.h|[a-z]+|($standard|$posix|dlfcn|emscripten|spawn|direct|io|windows)\\.h|freetype/freetype\\.h|OpenImageIO/[a-z]+\\.h|tiny_gltf\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h|isa-l/[a-z_]+\\.h|(libdeflate|zlib|mpi)\\.h|SDL2/SDL\\.h|imgui\\.h"
 check bench "bench backends picture figure src simd programs tests" \
     "cgt/[a-z_]+\\.h|($standard|$posix)\\.h|embree3/rtcore\\.h"
 

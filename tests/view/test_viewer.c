@@ -288,8 +288,53 @@ TEST(selection_tells_and_follows)
         v->pick[i] = (view_pick){.element = (uint32_t)i, .place = {i == 0 ? 3.0f : 0.0f, i == 2 ? 4.0f : 0.0f, 0.0f}};
     count = viewer_pick_lines(v, lines, 32);
     assert_true(count > 2);
-    assert_string_equal(lines[count - 2], "distance of the last two  4");
+    assert_string_equal(lines[count - 2], "distance of the last  4");
     assert_string_equal(lines[count - 1], "angle at the second  90 degrees");
+    v->picks = 4;
+    v->pick[3] = (view_pick){.element = 3, .place = {0.0f, 4.0f, 98.0f}}; /* through the box's boundary */
+    count = viewer_pick_lines(v, lines, 32);
+    assert_string_equal(lines[count - 3], "distance of the last  2");
+    assert_string_equal(lines[count - 1], "dihedral about the middle two  90 degrees");
+    viewer_free(v);
+}
+
+/* A bond is its two ends; a second click on a sphere takes it back. */
+TEST(bonds_and_clicks)
+{
+    settings = "ambient = 0\nview = top\nbonds = 1.6\nbond-radius = 0.2\nradius-scale = 0.2\n";
+    FILE *const file = fopen("two.xyz", "w");
+    assert_non_null(file);
+    fputs("3\n\nC -0.75 0 0\nC 0.75 0 0\nO 0.75 5 0\n", file);
+    assert_int_equal(fclose(file), 0);
+    snprintf(path, sizeof path, "two.xyz");
+    viewer *const v = open_viewer(16);
+    snprintf(path, sizeof path, "run.lammpstrj");
+    settings = "ambient = 16\n";
+    settle(v);
+    float at[3][2], middle[2];
+    const float places[3][3] = {{-0.75f, 0.0f, 0.0f}, {0.75f, 0.0f, 0.0f}, {0.75f, 5.0f, 0.0f}};
+    for (int i = 0; i < 3; i++) {
+        assert_true(view_camera_project(&v->camera, 0, (float)WIDTH / HEIGHT, places[i], at[i]));
+        at[i][0] *= WIDTH;
+        at[i][1] *= HEIGHT;
+    }
+    middle[0] = 0.5f * (at[0][0] + at[1][0]);
+    middle[1] = 0.5f * (at[0][1] + at[1][1]);
+    click(v, middle[0], middle[1]);
+    assert_int_equal(v->picks, 2);
+    assert_int_equal(v->pick[0].element + v->pick[1].element, 1);
+    char lines[32][128];
+    const uint32_t count = viewer_pick_lines(v, lines, 32);
+    assert_string_equal(lines[count - 2], "a bond of these two");
+    assert_string_equal(lines[count - 1], "distance  1.5");
+    assert_int_equal(viewer_unset(v, "bonds"), 0); /* without a distance they are guessed, which needs another reading */
+    assert_int_equal(viewer_set(v, "bonds", NULL), 0);
+    settle(v);
+    click(v, at[2][0], at[2][1]);
+    assert_int_equal(v->picks, 3);
+    click(v, at[0][0], at[0][1]);
+    assert_int_equal(v->picks, 2);
+    assert_int_equal(v->pick[1].element, 2);
     viewer_free(v);
 }
 
@@ -392,12 +437,14 @@ static uint64_t sum(viewer *v)
 /* Any option may be set while a frame is shown; what is refused says why, and changes nothing. */
 TEST(options_are_set_in_the_window)
 {
-    static const char *const options[][2] = {{"style", "paper"},     {"color", "q"},  {"bonds", "0.9"},
-                                             {"show", "type > 1"},   {"ortho", NULL}, {"background", "white"},
-                                             {"radius-by", "q/300"}, {"box", NULL}};
+    static const char *const options[][2] = {
+        {"style", "paper"},      {"color", "q"},         {"bonds", "0.9"}, {"show", "type > 1"}, {"ortho", NULL},
+        {"background", "white"}, {"radius-by", "q/300"}, {"box", NULL},    {"trails", "3"}}; /* the last reads anew */
     static const char *const wrong[][2] = {
-        {"size", "10x10"}, {"color", "no_such"}, {"trails", "3"}, {"fill", "much"}, {"nothing", "1"}};
+        {"size", "10x10"}, {"color", "no_such"}, {"trails", "0"}, {"fill", "much"}, {"nothing", "1"}};
     viewer *const v = open_viewer(64);
+    settle(v);
+    key(v, VIEW_KEY_END, 0);
     settle(v);
     const cgt_camera camera = v->camera;
     const uint64_t before = sum(v);
@@ -419,6 +466,66 @@ TEST(options_are_set_in_the_window)
     }
     assert_int_equal(viewer_set(v, "view", "top"), 0); /* in place of the hand's */
     assert_true(v->camera.target[2] < v->camera.eye[2] - 1.0f && fabsf(v->camera.eye[0] - v->camera.target[0]) < 1e-3f);
+    viewer_free(v);
+}
+
+static void send_text(viewer *v, view_event_kind kind, const char *text)
+{
+    const view_event e = {.kind = kind, .text = text ? strdup(text) : NULL};
+    viewer_send(v, &e);
+    viewer_step(v, clock_now);
+}
+
+static void expect_selection(viewer *v, const char *expected)
+{
+    char *const text = viewer_copy_selection(v);
+    assert_non_null(strstr(text, expected));
+    free(text);
+}
+
+TEST(selections)
+{
+    viewer *const v = open_viewer(64);
+    settle(v);
+    const uint64_t before = sum(v);
+    send_text(v, VIEW_SELECT, "q < 100");
+    expect_selection(v, "50 of 200 spheres");
+    send_text(v, VIEW_SELECT, "no_such > 1");
+    expect_selection(v, "no column \"no_such\"");
+    send_text(v, VIEW_USE, "hide"); /* nothing */
+    settle(v);
+    assert_true(sum(v) == before);
+    static const char *const uses[] = {"hide", "show", "fade", "label"};
+    for (size_t i = 0; i < TEST_COUNT(uses); i++) {
+        send_text(v, VIEW_SELECT, "type == 2");
+        send_text(v, VIEW_USE, uses[i]);
+        settle(v);
+        if (i < 3) /* a small window has no room for labels */
+            assert_true(sum(v) != before);
+        key(v, 'u', 0);
+        settle(v);
+        assert_true(sum(v) == before);
+    }
+    /* all move by 1 along x with each frame */
+    const cgt_camera camera = v->camera;
+    send_text(v, VIEW_USE, "follow");
+    key(v, VIEW_KEY_RIGHT, 0);
+    settle(v);
+    assert_true(fabsf(v->camera.eye[0] - camera.eye[0] - 1.0f) < 1e-3f);
+    assert_true(fabsf(v->camera.target[1] - camera.target[1]) < 1e-3f);
+    send_text(v, VIEW_USE, "follow");
+    key(v, VIEW_KEY_RIGHT, 0);
+    settle(v);
+    assert_true(fabsf(v->camera.eye[0] - camera.eye[0] - 1.0f) < 1e-3f);
+
+    v->picks = 2;
+    v->pick[0] = (view_pick){.element = 0, .id = 200};
+    v->pick[1] = (view_pick){.element = 9, .id = 191};
+    send_text(v, VIEW_SELECT, NULL);
+    expect_selection(v, "2 of 200 spheres");
+    char *const formula = viewer_take_formula(v);
+    assert_string_equal(formula, "id == 200 or id == 191");
+    free(formula);
     viewer_free(v);
 }
 
@@ -492,6 +599,8 @@ static view_event random_event(test_random *r)
                                'y',
                                'z',
                                'o',
+                               'p',
+                               'u',
                                'l',
                                'd',
                                'i',
@@ -523,8 +632,17 @@ static view_event random_event(test_random *r)
     if (random_below(r, 400) == 0)
         e.key = 's';
     e.shift = random_below(r, 4) == 0;
-    if (e.kind == VIEW_RESIZE && random_below(r, 20))
+    e.control = random_below(r, 10) == 0;
+    if (e.kind == VIEW_RESIZE && random_below(r, 10))
         e.kind = VIEW_MOVE;
+    if (e.kind == VIEW_RESIZE && random_below(r, 2)) { /* what a panel sends */
+        static const char *const texts[] = {"", "\n", "1\n", "x > 3\n", "a\nb\n", "top"};
+        e.kind = (view_event_kind)(VIEW_PUT + random_below(r, VIEW_PANEL - VIEW_PUT + 1));
+        e.option = random_below(r, 80);
+        e.text = strdup(texts[random_below(r, sizeof texts / sizeof texts[0])]);
+        e.continues = (int)random_below(r, 2);
+        e.panel = (int)random_below(r, 3);
+    }
     e.width = random_below(r, 160);
     e.height = random_below(r, 120);
     e.scale = random_below(r, 2) ? 1.0f : 2.0f;

@@ -69,7 +69,7 @@ key Left
 key End
 key Left
 settle
-key o
+key p
 key z
 key Shift+X
 key s
@@ -88,6 +88,120 @@ key s
 settle
 END
 same view_0000-2.png
+
+# What the panel sets is in the picture; without the panel in the build o says so, and the rest is for the picture.
+if "$program" --help | grep -q 'o opens a panel'; then
+    view 0 -s 700x400 --style plain -a 1 "$data/caffeine.xyz" <<'END'
+settle
+key o
+wait 0.2
+text radius-sc
+key Return
+text 0.4
+key Return
+wait 0.1
+key Escape
+settle
+key s
+settle
+shot panel.png
+END
+    same view_0000-3.png
+    grep -q -e '--radius-scale=0.4' "$tmp/command" || fail "the panel sets nothing: $(cat "$tmp/command")"
+fi
+
+# A window without a file; files that are dropped on it, read anew, with settings that are saved and loaded.
+XDG_DATA_HOME=$tmp/data\ home
+export XDG_DATA_HOME
+head -n 14 "$data/caffeine.xyz" | sed '1s/.*/12/' >"$tmp/few.xyz"
+cp "$data/caffeine.xyz" "$tmp/later.xyz"
+view 0 --style plain -a 1 <<END
+wait 0.1
+key o
+key s
+drop few.xyz
+settle
+key p
+key Ctrl+S
+drop missing.xyz
+drop $pour
+settle
+say
+drop few.xyz
+drop view.settings
+settle
+key r
+settle
+key s
+settle
+END
+same view_0000-4.png
+says out '^frame 3, full, 1/1, color type, '
+says err '^cgt-view: missing.xyz: No such file or directory$'
+[ "$(grep -c missing "$tmp/stderr")" -eq 1 ] || fail "a file that is not there is opened twice"
+grep -q -e '--ortho' "$tmp/command" || fail "settings are not loaded: $(cat "$tmp/command")"
+[ "$(sed 's|.*/||' "$XDG_DATA_HOME/cgt/recent" | paste -sd' ')" = "few.xyz pour2k.lammpstrj" ] ||
+    fail "recent files: $(cat "$XDG_DATA_HOME/cgt/recent")"
+printf 'style = soft\nwhole = 1\n' >"$tmp/wrong.settings"
+view 0 --style plain -a 1 few.xyz <<'END'
+settle
+drop wrong.settings
+wait 0.1
+say
+END
+says err 'wrong.settings:2: whole: the option takes no value'
+says out '^frame 0, '
+# a file that is written anew
+(sleep 2; mv "$tmp/later.xyz" "$tmp/few.xyz") &
+view 0 --style plain -a 1 few.xyz <<'END'
+settle
+wait 4
+key r
+settle
+key s
+settle
+END
+wait
+same view_0000-5.png # by the file that is there now
+
+# A movie is cgt-render's, and one that is ended leaves nothing; Python for a picture.
+mkdir "$tmp/temporary"
+TMPDIR=$tmp/temporary
+export TMPDIR
+rm -f "$tmp"/view*.settings
+view 0 --style plain -a 1 --type-color 1=red --type-color '2=blue' --title 'It'"'"'s "so" \' "$pour" <<'END'
+key End
+settle
+key Ctrl+S
+key Shift+C
+key m
+key m
+settle
+key m
+settle
+say
+END
+if command -v ffmpeg >/dev/null; then
+    (cd "$tmp" && "$render" --settings view.settings -q -o again.mp4 "$pour") >/dev/null 2>&1
+    cmp -s "$tmp/view.mp4" "$tmp/again.mp4" || fail "m does not write what cgt-render does"
+    [ "$(cd "$tmp" && ls view*.mp4)" = view.mp4 ] || fail "a movie that was ended is there: $(ls "$tmp")"
+fi
+[ -z "$(ls "$TMPDIR")" ] || fail "temporary files stay: $(ls "$TMPDIR")"
+unset TMPDIR
+if command -v python3 >/dev/null && "$program" --help | grep -q 'o opens a panel'; then
+    view 0 -s 900x300 --style plain -a 1 --type-color 1=red --type-color '2=blue' --title 'It'"'"'s "so" \' --bonds \
+        "$data/caffeine.xyz" <<'END'
+settle
+key o
+wait 0.2
+click 780 43
+wait 0.2
+END
+    cp "$tmp/stdout" "$tmp/lines.py"
+    python3 -m py_compile "$tmp/lines.py" 2>"$tmp/python.log" || fail "Python's lines: $(cat "$tmp/lines.py" "$tmp/python.log")"
+    grep -qF 'type_color=["1=red", "2=blue"], title="It'"'"'s \"so\" \\", bonds=True' "$tmp/lines.py" ||
+        fail "Python's lines: $(cat "$tmp/lines.py")"
+fi
 
 # Mirrors and glass, a floor, a transparent background; also after colours, hiding and the camera's up have changed.
 rm -f "$tmp"/view_*
@@ -319,8 +433,7 @@ view 2 --ambient 999 "$pour" </dev/null
 says err '0 to 256'
 view 2 -o 'x.exr' "$pour" </dev/null
 says err '\.png'
-run 2
-says err 'no trajectory'
+run 0 $size --script /dev/null
 run 0 --help
 says out '--style'
 says out '--memory'
@@ -355,7 +468,7 @@ same "$(cd "$tmp" && ls view_*.png | tail -n 1)"
 # The guide's commands make its pictures: those of one kind of window have their size.
 cp "$data/pour2k.lammpstrj" "$data/caffeine.xyz" "$tmp"
 sed -n -e '/^## Scripts/,$s/^    printf/printf/p' -e '/^## Scripts/,$s/^    cgt-view/run 0/p' "$guide" >"$tmp/guide"
-[ "$(wc -l <"$tmp/guide")" -eq 6 ] || fail "not six commands in $guide"
+[ "$(wc -l <"$tmp/guide")" -eq 8 ] || fail "not eight commands in $guide"
 while read -r command; do
     case $command in
     printf*) (cd "$tmp" && eval "$command") ;;
@@ -366,6 +479,10 @@ for picture in angle colors help; do
     [ "$(od -A n -j 16 -N 8 -t x1 "$tmp/$picture.png" | tr -d ' ')" = 00000280000001e0 ] ||
         fail "no $picture.png of 640x480"
 done
+
+if "$program" --help | grep -q 'o opens a panel'; then
+    [ "$(od -A n -j 16 -N 8 -t x1 "$tmp/panel.png" | tr -d ' ')" = 000003c00000021c ] || fail "no panel.png of 960x540"
+fi
 
 [ $failures -eq 0 ] || exit 1
 echo "cgt-view by scripts"

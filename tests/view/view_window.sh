@@ -53,9 +53,21 @@ xdotool key --window "$window" c
 cameras() { [ "$(grep -c '^-c ' "$tmp/stdout")" -eq "$1" ]; }
 waits 30 cameras 2 || fail "c printed $(cat "$tmp/stdout")"
 [ "$(sort -u "$tmp/stdout" | wc -l)" -eq 2 ] || fail "the pointer does not move the camera"
+# the panel, where there is one, by its button, with an option by its name
+if "$program" --help | grep -q 'o opens a panel'; then
+    xdotool mousemove --window "$window" 290 20 click 1
+    sleep 0.5
+    xdotool type --window "$window" --delay 30 radius-scale
+    xdotool key --window "$window" Return
+    xdotool type --window "$window" --delay 30 0.5
+    xdotool key --window "$window" Return Escape
+    sleep 0.5
+fi
 xdotool key --window "$window" s
 written() { [ -s "$tmp/view_0074.png" ]; }
 waits 60 written || fail "s wrote nothing"
+"$program" --help | grep -q 'o opens a panel' && ! grep -q -e '--radius-scale=0.5' "$tmp/stdout" &&
+    fail "the panel sets nothing: $(cat "$tmp/stdout")"
 xdotool key --window "$window" q 2>/dev/null # its end may come before the key is up
 gone() { ! kill -0 $viewer 2>/dev/null; }
 waits 30 gone || fail "q does not end it"

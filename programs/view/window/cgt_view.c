@@ -12,6 +12,7 @@
 #include <SDL2/SDL.h>
 
 #include "common/program.h"
+#include "view/view_options.h"
 #include "view/window/view_window.h"
 
 /* ---- The thread that draws ---------------------------------------------------------------------------------- */
@@ -84,23 +85,87 @@ static void get_scale(SDL_Window *window, float *pixels, float *scale)
         *scale = floorf(fminf(dpi, 384.0f) / 48.0f) * 0.5f; /* in halves */
 }
 
-static void send_size(view_window *w)
+static const float panel_width = 380.0f; /* units of texts */
+
+int view_window_panel_width(const view_window *w, float *scale)
 {
     int width, height;
     float pixels;
+    SDL_GetWindowSizeInPixels(w->window, &width, &height);
+    get_scale(w->window, &pixels, scale);
+    const int wanted = (int)(panel_width * *scale), most = width - width / 3;
+    return !w->panel_is_open ? 0 : wanted < most ? wanted : most;
+}
+
+/* The picture has what the panel leaves. */
+static void send_size(view_window *w)
+{
+    int width, height;
     view_event event = {.kind = VIEW_RESIZE};
     SDL_GetWindowSizeInPixels(w->window, &width, &height);
-    get_scale(w->window, &pixels, &event.scale);
+    width -= view_window_panel_width(w, &event.scale);
     event.width = (uint32_t)(width > 0 ? width : 1);
     event.height = (uint32_t)(height > 0 ? height : 1);
     viewer_send(w->viewer, &event);
+}
+
+/* Where there is room, the window becomes wider by the panel, so that the picture stays as it is; or narrower again. */
+static void make_room(view_window *w, int is_open)
+{
+    float pixels, scale;
+    int width, height, x, y;
+    SDL_Rect screen;
+    const Uint32 whole = SDL_WINDOW_MAXIMIZED | SDL_WINDOW_FULLSCREEN;
+    get_scale(w->window, &pixels, &scale);
+    SDL_GetWindowSize(w->window, &width, &height);
+    SDL_GetWindowPosition(w->window, &x, &y);
+    if (!is_open && w->grown && width > w->grown)
+        SDL_SetWindowSize(w->window, width - w->grown, height);
+    const int wanted = is_open ? (int)(panel_width * scale / pixels) : 0;
+    w->grown = 0;
+    if (!is_open || (SDL_GetWindowFlags(w->window) & whole) ||
+        SDL_GetDisplayUsableBounds(SDL_GetWindowDisplayIndex(w->window), &screen) || width + wanted > screen.w)
+        return;
+    w->grown = wanted;
+    if (x + width + wanted > screen.x + screen.w)
+        SDL_SetWindowPosition(w->window, screen.x + screen.w - width - wanted, y);
+    SDL_SetWindowSize(w->window, width + wanted, height);
+}
+
+static void open_panel(view_window *w, int is_open)
+{
+    const view_event event = {.kind = VIEW_PANEL,
+                              .panel = !w->panel ? VIEW_PANEL_ABSENT
+                                       : is_open ? VIEW_PANEL_OPEN
+                                                 : VIEW_PANEL_CLOSED};
+    if (w->panel && w->panel_is_open != is_open)
+        make_room(w, is_open);
+    w->panel_is_open = w->panel && is_open;
+    viewer_send(w->viewer, &event);
+    send_size(w);
+    if (w->panel_is_open)
+        view_panel_focus(w->panel);
+}
+
+/* Shows the panel where it differs, or is asked for. */
+static void present_panel(view_window *w, int all)
+{
+    SDL_Surface *const to = SDL_GetWindowSurface(w->window);
+    float scale;
+    const int width = view_window_panel_width(w, &scale);
+    SDL_Surface *const from = width && to ? view_panel_draw(w->panel, width, to->h, scale, all) : NULL;
+    SDL_Rect at = {to ? to->w - width : 0, 0, width, to ? to->h : 0};
+    if (!from)
+        return;
+    SDL_BlitSurface(from, NULL, to, &at);
+    SDL_UpdateWindowSurfaceRects(w->window, &at, 1);
 }
 
 /* Shows what differs, or all. */
 static void present(view_window *w, int all)
 {
     SDL_Surface *const to = SDL_GetWindowSurface(w->window);
-    char clipboard[1024];
+    float scale;
     view_picture p;
     SDL_Rect rects[VIEW_RECTS];
     int count = 0;
@@ -113,21 +178,34 @@ static void present(view_window *w, int all)
         p.rects[0] = (view_rect){0, 0, p.width, p.height};
         p.rect_count = 1;
     }
+    if (to) {
+        const SDL_Rect beside = {0, 0, to->w - view_window_panel_width(w, &scale), to->h};
+        SDL_SetClipRect(to, &beside);
+    }
     for (uint32_t i = 0; i < p.rect_count && from && to; i++) {
         SDL_Rect r = {(int)p.rects[i].x, (int)p.rects[i].y, (int)p.rects[i].width, (int)p.rects[i].height};
         SDL_Rect at = r;
-        SDL_BlitSurface(from, &r, to, &at); /* cuts `at` to the window */
+        SDL_BlitSurface(from, &r, to, &at); /* cuts `at` to what the panel leaves of the window */
         if (at.w > 0 && at.h > 0)
             rects[count++] = at;
     }
     SDL_FreeSurface(from);
+    if (to)
+        SDL_SetClipRect(to, NULL);
     viewer_give_back(w->viewer);
     if (count)
         SDL_UpdateWindowSurfaceRects(w->window, rects, count);
     if (strcmp(SDL_GetWindowTitle(w->window), p.title) != 0)
         SDL_SetWindowTitle(w->window, p.title);
-    if (viewer_take_clipboard(w->viewer, clipboard, sizeof clipboard))
+    char *const clipboard = viewer_take_clipboard(w->viewer);
+    if (clipboard)
         SDL_SetClipboardText(clipboard);
+    free(clipboard);
+    switch (viewer_take_request(w->viewer)) {
+    case VIEW_ASKS_PANEL: open_panel(w, !w->panel_is_open); break;
+    case VIEW_ASKS_FILE: view_dialog_open(w); break;
+    case VIEW_ASKS_NOTHING: break;
+    }
 }
 
 /* ---- Events ------------------------------------------------------------------------------------------------- */
@@ -191,8 +269,22 @@ static void send_mouse(view_window *w, const SDL_Event *e)
 /* Returns 0 where the window was closed. */
 static int take(view_window *w, const SDL_Event *e, int *shows, int *all)
 {
-    const view_event key = {
-        .kind = VIEW_KEY, .key = key_of(e->key.keysym.sym), .shift = (e->key.keysym.mod & KMOD_SHIFT) != 0};
+    const view_event key = {.kind = VIEW_KEY,
+                            .key = key_of(e->key.keysym.sym),
+                            .shift = (e->key.keysym.mod & KMOD_SHIFT) != 0,
+                            .control = (e->key.keysym.mod & KMOD_CTRL) != 0};
+    int taken = VIEW_PANEL_LEAVES;
+    if (w->panel_is_open) {
+        float pixels, scale;
+        int width, height;
+        SDL_GetWindowSizeInPixels(w->window, &width, &height);
+        get_scale(w->window, &pixels, &scale);
+        taken = view_panel_event(w->panel, e, (float)(width - view_window_panel_width(w, &scale)), pixels);
+    }
+    if (taken == VIEW_PANEL_CLOSES)
+        open_panel(w, 0);
+    if (taken != VIEW_PANEL_LEAVES)
+        return 1;
     switch (e->type) {
     case SDL_QUIT: return 0;
     case SDL_MOUSEBUTTONDOWN:
@@ -203,6 +295,8 @@ static int take(view_window *w, const SDL_Event *e, int *shows, int *all)
         if (key.key)
             viewer_send(w->viewer, &key);
         break;
+    case SDL_DROPFILE:
+    case SDL_DROPCOMPLETE: view_dialog_drop(w, e); break;
     case SDL_WINDOWEVENT:
         if (e->window.event == SDL_WINDOWEVENT_SIZE_CHANGED)
             send_size(w);
@@ -224,6 +318,8 @@ int view_window_poll(view_window *w, int ms)
         while (open && SDL_PollEvent(&event));
     if (shows || all)
         present(w, all);
+    if (w->panel_is_open)
+        present_panel(w, all);
     SDL_LockMutex(w->lock);
     open &= !w->closing;
     SDL_UnlockMutex(w->lock);
@@ -238,9 +334,9 @@ static int run(view_window *w, const view_options *o)
     w->lock = SDL_CreateMutex();
     w->changed = SDL_CreateCond();
     w->event = SDL_RegisterEvents(1);
-    w->window =
-        SDL_CreateWindow(o->render.input, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, (int)o->render.figure.width,
-                         (int)o->render.figure.height, SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+    w->window = SDL_CreateWindow(o->render.input ? o->render.input : "cgt-view", SDL_WINDOWPOS_UNDEFINED,
+                                 SDL_WINDOWPOS_UNDEFINED, (int)o->render.figure.width, (int)o->render.figure.height,
+                                 SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
     if (!w->lock || !w->changed || !w->window) {
         program_error("cannot open a window: %s", SDL_GetError());
         return -1;
@@ -250,7 +346,8 @@ static int run(view_window *w, const view_options *o)
         program_error("out of memory");
         return -1;
     }
-    send_size(w);
+    w->panel = view_panel_create(w->viewer);
+    open_panel(w, 0);
     SDL_Thread *const thread = SDL_CreateThread(draw, "draw", w);
     if (!thread) {
         program_error("cannot start a thread: %s", SDL_GetError());
@@ -261,6 +358,7 @@ static int run(view_window *w, const view_options *o)
     else
         while (view_window_poll(w, 1000)) {
         }
+    view_dialog_end(w);
     viewer_stop(w->viewer);
     SDL_LockMutex(w->lock);
     w->closing = 1;
@@ -285,6 +383,7 @@ int main(int argc, char **argv)
     }
     signal(SIGPIPE, SIG_IGN); /* an error of the call that writes */
     const int result = run(&w, &options);
+    view_panel_free(w.panel);
     viewer_free(w.viewer);
     /* SDL wakes the thread of events by a second connection to an X server, which may read that message after the end
      * of the window; Xlib then ends the program as failed. There the end of the process closes both. */

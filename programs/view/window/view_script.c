@@ -58,17 +58,48 @@ static void click(int button, int clicks, int x, int y)
     push_button(SDL_MOUSEBUTTONUP, button, clicks, x, y);
 }
 
-/* A key by SDL's name, such as a, Left, Space; Shift+ before it. */
+/* A key by SDL's name, such as a, Left, Space; Shift+ or Ctrl+ before it. */
 static int push_key(const char *name)
 {
     SDL_Event e;
     SDL_zero(e);
-    const int shift = strncmp(name, "Shift+", 6) == 0;
+    const int shift = strncmp(name, "Shift+", 6) == 0, control = strncmp(name, "Ctrl+", 5) == 0;
     e.type = SDL_KEYDOWN;
-    e.key.keysym.sym = SDL_GetKeyFromName(name + (shift ? 6 : 0));
-    e.key.keysym.mod = shift ? KMOD_LSHIFT : KMOD_NONE;
+    e.key.keysym.sym = SDL_GetKeyFromName(name + (shift ? 6 : control ? 5 : 0));
+    e.key.keysym.mod = shift ? KMOD_LSHIFT : control ? KMOD_LCTRL : KMOD_NONE;
+    SDL_PushEvent(&e);
+    e.type = SDL_KEYUP;
     SDL_PushEvent(&e);
     return e.key.keysym.sym == SDLK_UNKNOWN ? -1 : 0;
+}
+
+/* Text as an event for every few characters, as input methods send it. */
+static void push_text(const char *text)
+{
+    SDL_Event e;
+    const size_t most = 16;
+    for (size_t length; *text; text += length) {
+        SDL_zero(e);
+        e.type = SDL_TEXTINPUT;
+        length = strlen(text);
+        for (length = length < most ? length : most; length > 1 && ((unsigned char)text[length] & 0xC0) == 0x80;)
+            length--; /* not within a character */
+        memcpy(e.text.text, text, length);
+        SDL_PushEvent(&e);
+    }
+}
+
+/* A file that is dropped on the window. */
+static void push_drop(const char *path)
+{
+    SDL_Event e;
+    SDL_zero(e);
+    e.type = SDL_DROPFILE;
+    e.drop.file = SDL_strdup(path);
+    SDL_PushEvent(&e);
+    e.type = SDL_DROPCOMPLETE;
+    e.drop.file = NULL;
+    SDL_PushEvent(&e);
 }
 
 static void push_wheel(float turns, int x, int y)
@@ -94,20 +125,31 @@ static void push_move(int x, int y)
 
 /* ---- Asking ------------------------------------------------------------------------------------------------- */
 
+/* The picture, and beside it the panel. */
 static int shoot(view_window *w, const char *path, char *error, size_t size)
 {
     view_picture p;
+    float scale;
     uint8_t *rgb = NULL;
     viewer_take(w->viewer, &p);
-    const size_t count = (size_t)p.width * p.height;
+    const int beside = view_window_panel_width(w, &scale);
+    const SDL_Surface *const panel = beside ? view_panel_draw(w->panel, beside, (int)p.height, scale, 1) : NULL;
+    const uint32_t width = p.width + (panel ? (uint32_t)beside : 0);
     if (p.pixels)
-        rgb = malloc(3 * count + 1);
-    for (size_t i = 0; rgb && i < count; i++)
-        for (int c = 0; c < 3; c++)
-            rgb[3 * i + (size_t)c] = (uint8_t)(p.pixels[i] >> (16 - 8 * c));
+        rgb = malloc(3 * (size_t)width * p.height + 1);
+    for (uint32_t y = 0; rgb && y < p.height; y++)
+        for (uint32_t x = 0; x < width; x++) {
+            const uint32_t *const row = x < p.width
+                                            ? p.pixels + (size_t)y * p.width
+                                            : (const uint32_t *)(const void *)((const uint8_t *)panel->pixels +
+                                                                               (size_t)y * (size_t)panel->pitch);
+            for (int c = 0; c < 3; c++)
+                rgb[3 * ((size_t)y * width + x) + (size_t)c] =
+                    (uint8_t)(row[x < p.width ? x : x - p.width] >> (16 - 8 * c));
+        }
     viewer_give_back(w->viewer);
     snprintf(error, size, "there is no picture");
-    const int result = rgb ? image_write_png(path, rgb, p.width, p.height, error, size) : -1;
+    const int result = rgb ? image_write_png(path, rgb, width, p.height, error, size) : -1;
     free(rgb);
     return result;
 }
@@ -166,6 +208,14 @@ static int run_line(view_window *w, const char *line, char *error, size_t size)
         return DONE;
     if (strcmp(word, "key") == 0)
         return push_key(rest);
+    if (strcmp(word, "drop") == 0) {
+        push_drop(rest);
+        return DONE;
+    }
+    if (strcmp(word, "text") == 0) {
+        push_text(rest);
+        return DONE;
+    }
     if (strcmp(word, "move") == 0 && sscanf(rest, "%d %d", &x, &y) == 2)
         push_move(x, y);
     else if (strcmp(word, "press") == 0 && sscanf(rest, "%d %d %d", &button, &x, &y) == 3)

@@ -7,11 +7,19 @@
 
 #include <SDL2/SDL.h>
 
-#include "view/viewer.h"
+#include "system/process.h"
+#include "view/window/view_panel.h"
 
 typedef struct view_window {
     viewer *viewer;
     SDL_Window *window;
+    view_panel *panel; /* NULL: this build has none */
+    int panel_is_open;
+    int grown;                 /* units that the window is wider by for the panel */
+    char *dropped;             /* files so far, a line each; NULL: none */
+    SDL_Thread *dialog_thread; /* that waits for the dialog; NULL: there was none */
+    process_child dialog;
+    int dialog_is_open;
     Uint32 event;    /* a picture may be there */
     SDL_mutex *lock; /* of all below */
     SDL_cond *changed;
@@ -24,6 +32,14 @@ typedef struct view_window {
 /* Takes what SDL has, and shows the picture where there is a new one. Waits for up to `ms`. Returns 0 where the window
  * was closed. */
 int view_window_poll(view_window *w, int ms);
+
+/* The columns of pixels that the panel has at the right of the window's; scale: of its texts. */
+int view_window_panel_width(const view_window *w, float *scale);
+
+/* Asks for files to open, in a window of the desktop's; ends that. Takes events of files that are dropped. */
+void view_dialog_open(view_window *w);
+void view_dialog_end(view_window *w);
+void view_dialog_drop(view_window *w, const SDL_Event *event);
 
 /* Runs a script: 0, or -1 with the message printed. */
 int view_script_run(view_window *w, const char *path);

@@ -1,0 +1,311 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Other files in place of those that are shown, the same read anew, and settings files. What fails leaves all as it is. */
+#define _POSIX_C_SOURCE 200809L
+#include "view/viewer_internal.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "common/settings_file.h"
+#include "options/option_row.h"
+#include "view/view_recent.h"
+
+/* ---- Settings ----------------------------------------------------------------------------------------------- */
+
+static size_t name_length(const char *line) { return strcspn(line, " \n"); }
+
+static int is_named(const char *line, const char *name)
+{
+    return name_length(line) == strlen(name) && strncmp(line, name, strlen(name)) == 0;
+}
+
+/* Lines that begin with any of the names; or all others. */
+static void print_lines(FILE *to, const char *lines, const char *const *names, int others)
+{
+    for (const char *line = lines; *line;) {
+        const size_t length = strcspn(line, "\n");
+        int is_one = 0;
+        for (size_t i = 0; names[i]; i++)
+            is_one |= is_named(line, names[i]);
+        if (is_one != others)
+            fprintf(to, "%.*s\n", (int)length, line);
+        line += length + (line[length] == '\n');
+    }
+}
+
+/* What of the command line goes on: of other files no more than how they are written. */
+static void print_own(FILE *to, const viewer *v, int is_same)
+{
+    static const char *const of_writing[] = {"rate", "quality", NULL};
+    char name[64];
+    for (const char *line = v->options.render.settings; line && *line;) {
+        const size_t length = strcspn(line, "\n");
+        snprintf(name, sizeof name, "%.*s", (int)name_length(line), line);
+        if (!cgt_figure_find_row(name) && (is_same || is_named(line, of_writing[0]) || is_named(line, of_writing[1])))
+            fprintf(to, "%.*s\n", (int)length, line);
+        line += length + (line[length] == '\n');
+    }
+}
+
+/* ---- Opening ------------------------------------------------------------------------------------------------ */
+
+/* Names of files, a line each, as they are kept. */
+static char **split_paths(char *lines, size_t *count)
+{
+    size_t most = 1;
+    for (const char *c = lines; *c; c++)
+        most += *c == '\n';
+    char **const paths = calloc(most, sizeof *paths);
+    *count = 0;
+    for (char *line = lines; paths && *line;) {
+        const size_t length = strcspn(line, "\n");
+        const int ends = line[length] == '\0';
+        line[length] = '\0';
+        if (length)
+            paths[(*count)++] = line;
+        line += length + !ends;
+    }
+    return paths;
+}
+
+/* What was shown is gone, and the new file takes its place. */
+static void replace(viewer *v, view_draw *draw, const render_options *options, int keeps_camera)
+{
+    const uint64_t frame = v->shown ? v->shown->chosen : 0;
+    char size[32];
+    cgt_camera camera;
+    view_frames_release(v->frames, v->shown);
+    view_frames_finish(v->frames);
+    view_draw_close(v->draw);
+    v->draw = draw;
+    v->shown = NULL;
+    v->options.render = *options;
+    v->wanted = keeps_camera ? frame : 0;
+    v->is_arriving = !keeps_camera;
+    v->playing = v->scene_is_wrong = v->list = 0;
+    v->picks = keeps_camera ? v->picks : 0;
+    v->drag = DRAG_NONE;
+    snprintf(size, sizeof size, "%ux%u", v->width, v->height);
+    view_draw_tell(draw, cgt_figure_set(draw->figure, "size", size));
+    cgt_figure_get_up(draw->figure, v->axis);
+    if (!keeps_camera && cgt_figure_get_camera(draw->figure, &camera) == CGT_OK) {
+        v->camera = camera;
+        view_camera_straighten(&v->camera);
+        memcpy(v->pivot, v->camera.target, sizeof v->pivot);
+    }
+    v->outdated = v->changed = 1;
+    viewer_publish(v);
+}
+
+/* Opens files by settings, of which the figure's are also needed as options. Takes paths and settings over. */
+static int open_by(viewer *v, char *paths, char *settings, int is_same, int keeps_camera)
+{
+    view_options o = v->options;
+    view_opened next = {.paths = paths};
+    char error[PROGRAM_ERROR_SIZE] = "out of memory";
+    size_t count = 0;
+    next.inputs = paths ? split_paths(paths, &count) : NULL;
+    if (!is_same) {
+        render_options plain;
+        render_options_init(&plain);
+        o.render.reading = plain.reading;
+        o.render.range = plain.range;
+        o.render.mesh = NULL;
+    }
+    o.render.inputs = (const char **)(void *)next.inputs;
+    o.render.input_count = count;
+    o.render.input = count ? next.inputs[0] : NULL;
+    o.render.settings = settings;
+    char *const of_figure = settings ? calloc(strlen(settings) + 1, 1) : NULL;
+    FILE *const to = of_figure && *settings ? fmemopen(of_figure, strlen(settings) + 1, "w") : NULL;
+    for (const char *line = settings; to && *line;) {
+        char name[64];
+        const size_t length = strcspn(line, "\n");
+        snprintf(name, sizeof name, "%.*s", (int)name_length(line), line);
+        if (cgt_figure_find_row(name))
+            fprintf(to, "%.*s\n", (int)length, line);
+        line += length + (line[length] == '\n');
+    }
+    if (to)
+        fclose(to);
+    cgt_figure_options_init(&o.render.figure);
+    int failed = !next.inputs || !count || !of_figure ||
+                 cgt_figure_settings_change(&next.settings, SETTINGS_LINES, NULL, of_figure, &o.render.figure, error,
+                                            sizeof error);
+    free(of_figure);
+    if (failed) {
+        program_error("%s", error);
+        free(settings);
+    }
+    view_draw *const draw = failed ? NULL : view_draw_open(&o); /* takes the settings over */
+    if (!draw) {
+        viewer_free_opened(&next);
+        return -1;
+    }
+    viewer_forget_settings(v);
+    replace(v, draw, &o.render, keeps_camera);
+    v->frames = view_draw_start_frames(draw, (size_t)o.render.memory_mib << 20, viewer_on_frames, v);
+    viewer_free_opened(&v->opened);
+    v->opened = next;
+    if (!v->frames) { /* there is a message to read */
+        view_draw_close(v->draw);
+        v->draw = NULL;
+        v->options.render.settings = NULL;
+        return -1;
+    }
+    view_recent_add(v->options.render.input);
+    return 0;
+}
+
+void viewer_forget_settings(viewer *v)
+{
+    if (!v->draw) /* else they are its own */
+        free(v->options.render.settings);
+    v->options.render.settings = NULL;
+}
+
+void viewer_free_opened(view_opened *o)
+{
+    free(o->inputs);
+    free(o->paths);
+    cgt_figure_settings_free(&o->settings);
+    *o = (view_opened){.paths = NULL};
+}
+
+/* Opens files by lines of the figure's settings; paths: NULL: those that are shown. */
+static int open_lines(viewer *v, const char *paths, const char *lines, int keeps_camera)
+{
+    static const char *const size_name[] = {"size", NULL};
+    char *text = NULL, *names = NULL;
+    size_t size, names_size;
+    FILE *const to = open_memstream(&text, &size), *const to_names = open_memstream(&names, &names_size);
+    if (to) {
+        print_own(to, v, !paths);
+        print_lines(to, lines, size_name, 1);
+        fprintf(to, "size = %ux%u\n", v->width, v->height);
+    }
+    for (size_t i = 0; to_names && !paths && i < v->options.render.input_count; i++)
+        fprintf(to_names, "%s\n", v->options.render.inputs[i]);
+    if (to_names && paths)
+        fputs(paths, to_names);
+    const int failed = (to ? fclose(to) : -1) | (to_names ? fclose(to_names) : -1);
+    if (failed) {
+        program_error("out of memory");
+        free(text);
+        free(names);
+        return -1;
+    }
+    return open_by(v, names, text, !paths, keeps_camera);
+}
+
+/* Whether the first of the files can be read. */
+static int is_there(const char *paths)
+{
+    char *const first = strndup(paths, strcspn(paths, "\n"));
+    const int result = first && access(first, R_OK) == 0;
+    free(first);
+    return result;
+}
+
+static char *current_lines(const viewer *v)
+{
+    const char *const given = v->options.render.settings; /* of a command line without a file */
+    return v->draw ? view_draw_get(v->draw, cgt_figure_get, NULL) : strdup(given ? given : "");
+}
+
+void viewer_open(viewer *v, const char *paths)
+{
+    static const char *const of_place[] = {"camera", NULL};
+    static const char *const of_any[] = {"style", NULL};
+    char *text = NULL, *few = NULL;
+    size_t size, few_size;
+    if (!paths[strspn(paths, "\n")])
+        return;
+    char *const lines = current_lines(v);
+    FILE *const to = lines ? open_memstream(&text, &size) : NULL;
+    FILE *const to_few = lines ? open_memstream(&few, &few_size) : NULL;
+    if (to)
+        print_lines(to, lines, of_place, 1);
+    if (to_few)
+        print_lines(to_few, lines, of_any, 0);
+    const int failed = (to ? fclose(to) : -1) | (to_few ? fclose(to_few) : -1);
+    if (failed)
+        program_error("out of memory");
+    else if (open_lines(v, paths, text, 0) && strcmp(text, few) != 0 && is_there(paths) &&
+             open_lines(v, paths, few, 0) == 0)
+        viewer_say(v, "options that do not go with this file are left out"); /* why was said before */
+    free(text);
+    free(few);
+    free(lines);
+}
+
+void viewer_read_anew(viewer *v)
+{
+    char *const lines = v->draw ? current_lines(v) : NULL;
+    if (lines && open_lines(v, NULL, lines, 1) == 0)
+        viewer_say(v, "read anew");
+    free(lines);
+}
+
+int viewer_read_by(viewer *v, const char *name, const char *values)
+{
+    const char *const names[] = {name, NULL};
+    char *text = NULL;
+    size_t size;
+    char *const lines = current_lines(v);
+    FILE *const to = lines ? open_memstream(&text, &size) : NULL;
+    if (to)
+        print_lines(to, lines, names, 1);
+    for (const char *value = values; to && *value;) {
+        const size_t length = strcspn(value, "\n");
+        fprintf(to, length ? "%s = %.*s\n" : "%s%.*s\n", name, (int)length, value);
+        value += length + (value[length] == '\n');
+    }
+    const int failed = !to || fclose(to) || open_lines(v, NULL, text, 1);
+    free(text);
+    free(lines);
+    return failed ? -1 : 0;
+}
+
+/* ---- Settings files ----------------------------------------------------------------------------------------- */
+
+void viewer_load_settings(viewer *v, const char *path)
+{
+    char left_out[512], error[PROGRAM_ERROR_SIZE];
+    char *const lines = settings_read_figure(path, 1, left_out, sizeof left_out, error, sizeof error);
+    int has_camera = 0;
+    if (!lines) {
+        program_error("%s", error);
+        return;
+    }
+    for (const char *line = lines; *line; line += strcspn(line, "\n") + 1)
+        has_camera |= is_named(line, "camera");
+    if (!v->draw)
+        viewer_say(v, "open a file first");
+    else if (open_lines(v, NULL, lines, !has_camera) == 0)
+        viewer_say(v, left_out[0] ? "%s is loaded, without %s" : "%s is loaded", path, left_out);
+    free(lines);
+}
+
+/* By a name that is not there yet. */
+void viewer_save_settings(viewer *v)
+{
+    char name[64], error[PROGRAM_ERROR_SIZE];
+    if (!v->shown || v->scene_is_wrong || view_draw_tell(v->draw, cgt_figure_set_camera(v->draw->figure, &v->camera)))
+        return;
+    int number = 1;
+    do
+        snprintf(name, sizeof name, number == 1 ? "view.settings" : "view-%d.settings", number);
+    while (access(name, F_OK) == 0 && ++number < 100000);
+    char *const lines = view_draw_settings(v->draw);
+    if (lines && settings_write(name, lines, error, sizeof error))
+        program_error("%s", error);
+    else if (lines)
+        viewer_say(v, "wrote %s, for --settings, and to be dropped on a window", name);
+    free(lines);
+}
