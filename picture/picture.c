@@ -20,7 +20,7 @@ struct cgt_picture {
     cgt_picture_options options;
     int has_default_light;
     srgb_table srgb;
-    drawing opaque, layer[CGT_PICTURE_MAX_LAYERS];
+    drawing opaque, layer[CGT_PICTURE_MAX_LAYERS], whole;
     picture_looks looks;
     picture_state state;
     const cgt_scene *scene;
@@ -76,25 +76,28 @@ static int has_same_planes(const cgt_picture_options *a, const cgt_picture_optio
 
 static void free_parts(cgt_picture *p)
 {
+    cgt_draw_free(&p->whole);
     for (uint32_t k = 0; k <= CGT_PICTURE_MAX_LAYERS; k++)
         cgt_draw_free(part_of(p, k));
 }
 
 static cgt_result make_planes(cgt_picture *p, const cgt_picture_options *checked)
 {
-    drawing next[1 + CGT_PICTURE_MAX_LAYERS] = {{.options = NULL}};
-    const uint32_t layers = layers_of(checked);
-    for (uint32_t k = 0; k <= layers; k++) {
+    enum { WHOLE = 1 + CGT_PICTURE_MAX_LAYERS, PARTS };
+    drawing next[PARTS] = {{.options = NULL}};
+    for (uint32_t k = 0; k < PARTS; k++) {
         next[k] = (drawing){.options = checked, .srgb = &p->srgb, .context = p->context};
-        if (cgt_draw_init(&next[k]) == 0)
+        next[k].antialias = k == WHOLE ? 1 : checked->antialias;
+        if ((k == WHOLE ? !draw_keeps_whole(checked) : k > layers_of(checked)) || cgt_draw_init(&next[k]) == 0)
             continue;
         while (k-- > 0)
             cgt_draw_free(&next[k]);
         return CGT_ERROR_OUT_OF_MEMORY;
     }
     free_parts(p);
-    for (uint32_t k = 0; k <= layers; k++)
+    for (uint32_t k = 0; k < WHOLE; k++)
         *part_of(p, k) = next[k];
+    p->whole = next[WHOLE];
     return CGT_OK;
 }
 
@@ -109,8 +112,11 @@ static cgt_result set_options(cgt_picture *p, cgt_picture_options *checked)
     p->options = *checked;
     p->has_default_light = has_default_light;
     p->state = NOTHING;
+    p->opaque.whole = draw_has_whole(checked) ? &p->whole : NULL;
     for (uint32_t k = 0; k <= layers_of(checked); k++)
         cgt_draw_set_options(part_of(p, k), &p->options);
+    if (p->opaque.whole)
+        cgt_draw_set_options(&p->whole, &p->options);
     p->opaque.layer = p->layer;
     p->opaque.layers = layers_of(checked);
     return CGT_OK;
@@ -167,6 +173,19 @@ size_t cgt_picture_get_error_message(const cgt_picture *p, char *text, size_t si
 
 /* ---- Steps -------------------------------------------------------------------------------------------------- */
 
+static void begin_part(const cgt_picture *p, drawing *d, const cgt_camera *seen)
+{
+    d->looks = p->looks.look;
+    d->last_look = p->looks.count - 1;
+    d->has_triangles = d->has_halves = 0;
+    for (uint32_t i = 0; i < p->looks.count; i++) {
+        d->has_triangles |= p->looks.look[i].is_triangles;
+        d->has_halves |= p->looks.look[i].of.halves;
+    }
+    d->light_mask = seen->mask;
+    cgt_draw_begin(d, seen);
+}
+
 /* Copies looks and camera. */
 static cgt_result begin(cgt_picture *p, const cgt_scene *scene, const cgt_camera *camera, const cgt_look *looks,
                         uint32_t count)
@@ -188,18 +207,12 @@ static cgt_result begin(cgt_picture *p, const cgt_scene *scene, const cgt_camera
         return fail(p, CGT_ERROR_INVALID_ARGUMENT, "the mask of a picture's camera has bits of layers alone");
     for (uint32_t k = 0; k <= layers; k++) {
         drawing *const d = part_of(p, k);
-        d->looks = p->looks.look;
-        d->last_look = p->looks.count - 1;
-        d->has_triangles = d->has_halves = 0;
-        for (uint32_t i = 0; i < p->looks.count; i++) {
-            d->has_triangles |= p->looks.look[i].is_triangles;
-            d->has_halves |= p->looks.look[i].of.halves;
-        }
-        d->light_mask = seen.mask;
+        begin_part(p, d, &seen);
         d->behind = k ? &p->opaque : NULL;
-        cgt_draw_begin(d, &seen);
         d->camera.mask = k ? layer[k - 1].mask : seen.mask;
     }
+    if (p->opaque.whole)
+        begin_part(p, &p->whole, &seen);
     return CGT_OK;
 }
 

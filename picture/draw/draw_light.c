@@ -60,7 +60,7 @@ static cgt_camera light_camera(const drawing *d)
 
 cgt_result cgt_draw_trace_sky(drawing *d, const cgt_scene *scene, uint32_t samples)
 {
-    const cgt_frame frame = cgt_draw_frame(d);
+    cgt_frame frame = cgt_draw_frame(d);
     sky_step step = {.drawing = d, .samples = samples};
     cgt_ambient_options ambient;
     if (!samples)
@@ -81,6 +81,7 @@ cgt_result cgt_draw_trace_sky(drawing *d, const cgt_scene *scene, uint32_t sampl
         ambient.visitor_user = &step;
     }
     d->sky = d->sky_plane;
+    frame.primitive = d->rest;
     const cgt_camera camera = light_camera(d);
     return cgt_ambient_occlusion(scene, &camera, &frame, &ambient, d->samples ? d->more_sky : d->sky_plane, NULL);
 }
@@ -259,7 +260,7 @@ static cgt_result trace_strip(drawing *d, const cgt_scene *scene, light_rays *r,
             const size_t element = (size_t)y * d->ray_width + x;
             if (!r->first)
                 reach[element] = 1.0f;
-            if (d->primitive[element] != CGT_INVALID_ID && !is_averted(d, r->light, element, x, y))
+            if (d->rest[element] != CGT_INVALID_ID && !is_averted(d, r->light, element, x, y))
                 append_hit(r, d, x, y, element);
         }
     const cgt_rays rays = {.count = (uint64_t)r->hits * r->samples,
