@@ -240,7 +240,8 @@ CGT_API cgt_result cgt_picture_set_options(cgt_picture *picture, const cgt_pictu
 /* Copies the message of the last call that failed on this picture, as cgt_context_get_error_message does. */
 CGT_API size_t cgt_picture_get_error_message(const cgt_picture *picture, char *text, size_t size);
 
-/* Makes a whole picture: begin, all steps, read. Arguments and errors are theirs. */
+/* Makes a whole picture: begin, all steps, read. Arguments and errors are theirs. With CGT_SHADING_FULL and without
+ * statistics large ones are drawn by bands of rows, which touch some 32 MB of the memory; there is nothing to read then. */
 CGT_API cgt_result cgt_picture_draw(cgt_picture *picture, const cgt_scene *scene, const cgt_camera *camera,
                                     const cgt_look *looks, uint32_t look_count, const cgt_image *image,
                                     const cgt_trace_options *options);

@@ -10,6 +10,7 @@
 
 /* ---- Memory ------------------------------------------------------------------------------------------------- */
 
+/* Whole pixels leave the rays of others apart. */
 static int has_rest(const drawing *d) { return d->antialias > 1 && draw_keeps_whole(d->options); }
 
 /* Bytes a ray: t, primitive, geometry and normal; then what the lights need. */
@@ -26,36 +27,46 @@ static size_t bytes_a_ray(const drawing *d)
     return bytes;
 }
 
-static float *take(char **memory, size_t rays)
+/* The next plane of the memory, whose element `before` is its first. */
+static void *take(uintptr_t *memory, size_t rays, size_t bytes, size_t before)
 {
-    float *plane = (float *)(void *)*memory;
-    *memory += rays * sizeof(float);
+    void *const plane = (void *)(*memory - before * bytes);
+    *memory += rays * bytes;
     return plane;
 }
 
-/* Cuts the memory into planes; those of bytes come last, so that all are aligned. */
-static void lay_out(drawing *d, size_t rays)
+/* Cuts the memory into planes that begin at a row; those of bytes come last, so that all are aligned. */
+static void lay_out(drawing *d, uint32_t first_row)
 {
     const cgt_picture_options *o = d->options;
-    char *memory = d->memory;
-    d->t = take(&memory, rays);
-    d->primitive = (uint32_t *)(void *)take(&memory, rays);
+    const size_t rays = (size_t)d->ray_width * d->ray_height, before = (size_t)d->ray_width * first_row;
+    const size_t size = sizeof(float);
+    uintptr_t memory = (uintptr_t)d->memory;
+    d->t = take(&memory, rays, size, before);
+    d->primitive = take(&memory, rays, size, before);
     if (o->shading == CGT_SHADING_BOUNCES) {
-        d->light = (float(*)[3])(void *)memory;
+        d->light = take(&memory, rays, sizeof *d->light, before);
         return;
     }
-    d->geometry = (uint32_t *)(void *)take(&memory, rays);
+    d->geometry = take(&memory, rays, size, before);
     for (int c = 0; c < 3; c++)
-        d->normal[c] = take(&memory, rays);
-    d->rest_plane = has_rest(d) ? (uint32_t *)(void *)take(&memory, rays) : NULL;
-    d->sky_plane = o->lighting.ambient ? take(&memory, rays) : NULL;
+        d->normal[c] = take(&memory, rays, size, before);
+    d->rest_plane = has_rest(d) ? take(&memory, rays, size, before) : NULL;
+    d->sky_plane = o->lighting.ambient ? take(&memory, rays, size, before) : NULL;
     for (uint32_t i = 0; i < o->lighting.light_count; i++)
-        d->reach_plane[i] = draw_is_soft(&o->lighting.lights[i]) ? take(&memory, rays) : NULL;
+        d->reach_plane[i] = draw_is_soft(&o->lighting.lights[i]) ? take(&memory, rays, size, before) : NULL;
     for (uint32_t i = 0; i < o->lighting.light_count; i++) {
         const int is_hard = o->lighting.lights[i].shadows && !draw_is_soft(&o->lighting.lights[i]);
-        d->occluded[i] = is_hard ? (uint8_t *)memory : NULL;
-        memory += is_hard ? rays : 0;
+        d->occluded[i] = is_hard ? take(&memory, rays, 1, before) : NULL;
     }
+}
+
+size_t cgt_draw_row_bytes(const drawing *d) { return bytes_a_ray(d) * d->ray_width * d->antialias; }
+
+void cgt_draw_move_planes(drawing *d, uint32_t first_row)
+{
+    d->first_plane_row = first_row;
+    lay_out(d, first_row);
 }
 
 /* The rays of a pixel are shared by its rays of antialiasing, rounded up. */
@@ -81,7 +92,7 @@ int cgt_draw_init(drawing *d)
     d->memory = malloc((size_t)rays * bytes);
     if (!d->memory)
         return -1;
-    lay_out(d, (size_t)rays);
+    lay_out(d, 0);
     return 0;
 }
 
@@ -99,7 +110,6 @@ static uint32_t margin_of(const drawing *d)
 void cgt_draw_set_options(drawing *d, const cgt_picture_options *options)
 {
     d->options = options;
-    d->rest = d->whole ? d->rest_plane : d->primitive;
     d->ambient = d->sky_plane ? share_of(options->lighting.ambient, d) : 0;
     d->light_samples = 0;
     for (uint32_t i = 0; i < options->lighting.light_count; i++)
@@ -188,9 +198,11 @@ int cgt_draw_make_uv(drawing *d)
     const size_t rays = (size_t)d->ray_width * d->ray_height;
     if (!d->uv_memory)
         d->uv_memory = malloc(rays * 2 * sizeof(float)); /* cgt_draw_init has checked a larger size */
-    d->u = d->uv_memory;
-    d->v = d->u ? d->u + rays : NULL;
-    return d->u ? 0 : -1;
+    uintptr_t memory = (uintptr_t)d->uv_memory;
+    const size_t before = (size_t)d->ray_width * d->first_plane_row;
+    d->u = memory ? take(&memory, rays, sizeof *d->u, before) : NULL;
+    d->v = memory ? take(&memory, rays, sizeof *d->v, before) : NULL;
+    return memory ? 0 : -1;
 }
 
 cgt_frame cgt_draw_frame(const drawing *d)

@@ -29,6 +29,7 @@ struct drawing {
     /* The frame's planes, of width * antialias by height * antialias rays. */
     uint32_t antialias; /* of the options; 1 of whole pixels */
     uint32_t ray_width, ray_height;
+    uint32_t first_plane_row;            /* at which the planes' memory begins: above it they have none */
     uint32_t first_ray_row, ray_rows;    /* that are traced: those of the picture's rows, and what these look at */
     float share;                         /* of a ray in its pixel */
     void *memory, *uv_memory, *more_sky; /* of all planes; of u and v, from the first frame with triangles on; of a
@@ -46,7 +47,7 @@ struct drawing {
     /* Whole pixels go on as one ray each, in a frame of their own, and `rest` has the primitives of the other rays; see
      * draw_whole.c. NULL: there are none. */
     drawing *whole;
-    uint32_t *rest, *rest_plane;
+    uint32_t *rest_plane;
     /* What is transparent has planes of its own, where it is nearer than what is opaque; else its rays hit nothing. */
     drawing *layer; /* of the opaque one */
     uint32_t layers;
@@ -61,6 +62,11 @@ int cgt_draw_init(drawing *d);
 /* Sets the options, whose planes must be those of the last, and the rows of rays. */
 void cgt_draw_set_options(drawing *d, const cgt_picture_options *options);
 void cgt_draw_free(drawing *d);
+
+/* Bytes of planes for each row of pixels; lets the planes' memory begin at a row of rays, so that a picture may be made by
+ * bands of rows in the same small part of it, which stays in the caches and takes few pages. */
+size_t cgt_draw_row_bytes(const drawing *d);
+void cgt_draw_move_planes(drawing *d, uint32_t first_row);
 
 /* The rays of a frame, before its planes or tiles are traced. */
 void cgt_draw_begin(drawing *d, const cgt_camera *camera);
@@ -107,6 +113,7 @@ static inline int draw_has_whole(const cgt_picture_options *o)
 {
     return draw_keeps_whole(o) && !(o->style.outline > 0.0f);
 }
+static inline const uint32_t *draw_rest(const drawing *d) { return d->whole ? d->rest_plane : d->primitive; }
 static inline uint32_t draw_whole_rays(const cgt_picture_options *o) { return o->antialias * o->antialias; }
 
 /* The same: finds them after the camera's rays and hard lights; lays what they see on their rays, after each step. */

@@ -174,7 +174,7 @@ static void add_rays(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels
 static void add_rest(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels, pixel_sum *sum)
 {
     const uint32_t n = d->options->antialias;
-    const uint32_t *const rest = d->rest + (size_t)py * n * d->ray_width + (size_t)px * n;
+    const uint32_t *const rest = d->rest_plane + (size_t)py * n * d->ray_width + (size_t)px * n;
     for (uint32_t i = 0, end; i < pixels; i = end) {
         end = i + 1;
         if (draw_is_background(rest + (size_t)i * n, d->ray_width, n, n))

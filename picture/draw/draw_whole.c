@@ -65,7 +65,7 @@ static inline void find_in_row_of(const drawing *d, uint32_t y, uint32_t n)
 {
     const drawing *const w = d->whole;
     const size_t first = (size_t)y * n * d->ray_width;
-    memcpy(d->rest + first, d->primitive + first, (size_t)n * d->ray_width * sizeof *d->rest);
+    memcpy(d->rest_plane + first, d->primitive + first, (size_t)n * d->ray_width * sizeof *d->rest_plane);
     for (uint32_t x = 0; x < w->ray_width; x++) {
         const size_t to = (size_t)y * w->ray_width + x, k = first + (size_t)x * n;
         w->primitive[to] = w->geometry[to] = CGT_INVALID_ID;
@@ -73,7 +73,7 @@ static inline void find_in_row_of(const drawing *d, uint32_t y, uint32_t n)
             continue;
         for (uint32_t j = 0; j < n; j++)
             for (uint32_t i = 0; i < n; i++)
-                d->rest[k + (size_t)j * d->ray_width + i] = CGT_INVALID_ID;
+                d->rest_plane[k + (size_t)j * d->ray_width + i] = CGT_INVALID_ID;
     }
 }
 

@@ -560,6 +560,40 @@ TEST(steps_end_at_the_whole_picture)
     }
 }
 
+/* A large picture is drawn by bands of rows in the same memory, and by steps at once: the bytes are the same, with
+ * whole pixels, layers and all the planes that there are. */
+TEST(bands_have_the_bytes_of_steps)
+{
+    enum { WIDTH = 1000, HEIGHT = 210, BYTES = 3 * WIDTH * HEIGHT };
+    static uint8_t drawn[BYTES], stepped[BYTES];
+    static stage s;
+    cgt_camera camera;
+    set_camera(&camera);
+    for (uint32_t layers = 0; layers < 2; layers++) {
+        const cgt_image image = {.bytes = drawn}, other = {.bytes = stepped};
+        set_up(&s, 2, NULL);
+        set_everything(&s);
+        set_opaque(&s, 1);
+        s.settings.width = WIDTH;
+        s.settings.height = HEIGHT;
+        s.settings.antialias = 4; /* 130 MB of planes */
+        s.settings.style.outline = layers ? 3.0f : 0.0f;
+        s.settings.style.layer_count = layers;
+        s.settings.style.layers[0] = (cgt_picture_layer){2, 0.5f};
+        s.ball[0][3] = 6.0f;
+        assert_int_equal(cgt_scene_commit(s.scene), CGT_OK);
+        assert_int_equal(cgt_picture_create(s.context, &s.settings, &s.picture), CGT_OK);
+        assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, looks, 2, &image, NULL), CGT_OK);
+        const uint64_t hits = cgt_picture_get_hits(s.picture);
+        assert_int_equal(cgt_picture_begin(s.picture, s.scene, &camera, looks, 2, NULL), CGT_OK);
+        assert_int_equal(cgt_picture_step(s.picture, UINT32_MAX, NULL), CGT_OK);
+        assert_int_equal(cgt_picture_read(s.picture, &other), CGT_OK);
+        assert_memory_equal(drawn, stepped, BYTES);
+        assert_int_equal(hits, cgt_picture_get_hits(s.picture));
+        tear_down(&s);
+    }
+}
+
 /* The error of a picture in the middle of its steps falls as samples grow: it is not worse than that of fewer. */
 /* Rows alone have the bytes of the whole: those of averages, outlines and soft lights, which look at rows around them,
  * too. Other pixels stay. */
@@ -655,7 +689,9 @@ TEST(images_of_all_kinds_agree)
         s.settings.style.background[2] = 0.3f;
         draw(&s);
         memset(rgba, 77, sizeof rgba);
-        assert_int_equal(cgt_picture_read(s.picture, &image), CGT_OK);
+        cgt_camera camera;
+        set_camera(&camera);
+        assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, looks, 4, &image, NULL), CGT_OK);
         for (int i = 0; i < PIXELS; i++) {
             const uint8_t *const p = rgba + i / EDGE * ROW + i % EDGE * 4;
             assert_memory_equal(p, s.rgb + 3 * i, 3);
