@@ -12,6 +12,8 @@
 #include "picture_options.h"
 #include "picture_tiles.h"
 
+enum { BAND_BYTES = 1 << 25, LEAST_BAND = 64 }; /* of planes; rows of pixels */
+
 typedef enum picture_state { NOTHING = 0, TILES, SCENE } picture_state; /* what has begun */
 
 struct cgt_picture {
@@ -20,7 +22,7 @@ struct cgt_picture {
     cgt_picture_options options;
     int has_default_light;
     srgb_table srgb;
-    drawing opaque, layer[CGT_PICTURE_MAX_LAYERS];
+    drawing opaque, layer[CGT_PICTURE_MAX_LAYERS], whole;
     picture_looks looks;
     picture_state state;
     const cgt_scene *scene;
@@ -76,26 +78,38 @@ static int has_same_planes(const cgt_picture_options *a, const cgt_picture_optio
 
 static void free_parts(cgt_picture *p)
 {
+    cgt_draw_free(&p->whole);
     for (uint32_t k = 0; k <= CGT_PICTURE_MAX_LAYERS; k++)
         cgt_draw_free(part_of(p, k));
 }
 
 static cgt_result make_planes(cgt_picture *p, const cgt_picture_options *checked)
 {
-    drawing next[1 + CGT_PICTURE_MAX_LAYERS] = {{.options = NULL}};
-    const uint32_t layers = layers_of(checked);
-    for (uint32_t k = 0; k <= layers; k++) {
+    enum { WHOLE = 1 + CGT_PICTURE_MAX_LAYERS, PARTS };
+    drawing next[PARTS] = {{.options = NULL}};
+    for (uint32_t k = 0; k < PARTS; k++) {
         next[k] = (drawing){.options = checked, .srgb = &p->srgb, .context = p->context};
-        if (cgt_draw_init(&next[k]) == 0)
+        next[k].antialias = k == WHOLE ? 1 : checked->antialias;
+        if ((k == WHOLE ? !draw_keeps_whole(checked) : k > layers_of(checked)) || cgt_draw_init(&next[k]) == 0)
             continue;
         while (k-- > 0)
             cgt_draw_free(&next[k]);
         return CGT_ERROR_OUT_OF_MEMORY;
     }
     free_parts(p);
-    for (uint32_t k = 0; k <= layers; k++)
+    for (uint32_t k = 0; k < WHOLE; k++)
         *part_of(p, k) = next[k];
+    p->whole = next[WHOLE];
     return CGT_OK;
+}
+
+/* Of the options, whose rows may have changed. */
+static void set_parts(cgt_picture *p)
+{
+    for (uint32_t k = 0; k <= layers_of(&p->options); k++)
+        cgt_draw_set_options(part_of(p, k), &p->options);
+    if (p->opaque.whole)
+        cgt_draw_set_options(&p->whole, &p->options);
 }
 
 /* Makes planes, where they are not there already; what fails leaves the picture as it was. */
@@ -109,8 +123,8 @@ static cgt_result set_options(cgt_picture *p, cgt_picture_options *checked)
     p->options = *checked;
     p->has_default_light = has_default_light;
     p->state = NOTHING;
-    for (uint32_t k = 0; k <= layers_of(checked); k++)
-        cgt_draw_set_options(part_of(p, k), &p->options);
+    p->opaque.whole = draw_has_whole(checked) ? &p->whole : NULL;
+    set_parts(p);
     p->opaque.layer = p->layer;
     p->opaque.layers = layers_of(checked);
     return CGT_OK;
@@ -167,6 +181,19 @@ size_t cgt_picture_get_error_message(const cgt_picture *p, char *text, size_t si
 
 /* ---- Steps -------------------------------------------------------------------------------------------------- */
 
+static void begin_part(const cgt_picture *p, drawing *d, const cgt_camera *seen)
+{
+    d->looks = p->looks.look;
+    d->last_look = p->looks.count - 1;
+    d->has_triangles = d->has_halves = 0;
+    for (uint32_t i = 0; i < p->looks.count; i++) {
+        d->has_triangles |= p->looks.look[i].is_triangles;
+        d->has_halves |= p->looks.look[i].of.halves;
+    }
+    d->light_mask = seen->mask;
+    cgt_draw_begin(d, seen);
+}
+
 /* Copies looks and camera. */
 static cgt_result begin(cgt_picture *p, const cgt_scene *scene, const cgt_camera *camera, const cgt_look *looks,
                         uint32_t count)
@@ -188,18 +215,12 @@ static cgt_result begin(cgt_picture *p, const cgt_scene *scene, const cgt_camera
         return fail(p, CGT_ERROR_INVALID_ARGUMENT, "the mask of a picture's camera has bits of layers alone");
     for (uint32_t k = 0; k <= layers; k++) {
         drawing *const d = part_of(p, k);
-        d->looks = p->looks.look;
-        d->last_look = p->looks.count - 1;
-        d->has_triangles = d->has_halves = 0;
-        for (uint32_t i = 0; i < p->looks.count; i++) {
-            d->has_triangles |= p->looks.look[i].is_triangles;
-            d->has_halves |= p->looks.look[i].of.halves;
-        }
-        d->light_mask = seen.mask;
+        begin_part(p, d, &seen);
         d->behind = k ? &p->opaque : NULL;
-        cgt_draw_begin(d, &seen);
         d->camera.mask = k ? layer[k - 1].mask : seen.mask;
     }
+    if (p->opaque.whole)
+        begin_part(p, &p->whole, &seen);
     return CGT_OK;
 }
 
@@ -209,6 +230,31 @@ static cgt_result trace_bounces(cgt_picture *p)
     const cgt_result result = cgt_draw_bounces(&p->opaque, p->scene, &wrong);
     const cgt_result told = fail_drawing(p, result);
     return wrong ? fail(p, told, wrong) : told;
+}
+
+/* Lets the planes begin at the rows that are traced, or at the first. */
+static void move_planes(cgt_picture *p, bool at_rows)
+{
+    for (uint32_t k = 0; k <= layers_of(&p->options); k++)
+        cgt_draw_move_planes(part_of(p, k), at_rows ? part_of(p, k)->first_ray_row : 0);
+    if (p->opaque.whole)
+        cgt_draw_move_planes(&p->whole, at_rows ? p->whole.first_ray_row : 0);
+}
+
+static cgt_result trace_parts(cgt_picture *p, const cgt_trace_options *options)
+{
+    cgt_result result = CGT_OK;
+    for (uint32_t k = 0; k <= layers_of(&p->options) && result == CGT_OK; k++)
+        result = cgt_draw_trace(part_of(p, k), p->scene, k ? NULL : options);
+    return result;
+}
+
+static cgt_result step_parts(cgt_picture *p, uint32_t samples)
+{
+    cgt_result result = CGT_OK;
+    for (uint32_t k = 0; k <= layers_of(&p->options) && result == CGT_OK; k++)
+        result = cgt_draw_step(part_of(p, k), p->scene, samples);
+    return result;
 }
 
 cgt_result cgt_picture_begin(cgt_picture *p, const cgt_scene *scene, const cgt_camera *camera, const cgt_look *looks,
@@ -230,20 +276,17 @@ cgt_result cgt_picture_begin(cgt_picture *p, const cgt_scene *scene, const cgt_c
         return CGT_OK;
     if (p->options.shading == CGT_SHADING_BOUNCES)
         return trace_bounces(p);
-    for (uint32_t k = 0; k <= layers_of(&p->options) && result == CGT_OK; k++)
-        result = cgt_draw_trace(part_of(p, k), scene, k ? NULL : options);
-    return fail_drawing(p, result);
+    move_planes(p, false);
+    return fail_drawing(p, trace_parts(p, options));
 }
 
 cgt_result cgt_picture_step(cgt_picture *p, uint32_t samples, uint32_t *left)
 {
-    cgt_result result = CGT_OK;
     if (!p || p->failed)
         return CGT_ERROR_INVALID_ARGUMENT;
     if (p->state != SCENE)
         return fail(p, CGT_ERROR_INVALID_ARGUMENT, "a picture takes steps after cgt_picture_begin");
-    for (uint32_t k = 0; k <= layers_of(&p->options) && result == CGT_OK; k++)
-        result = cgt_draw_step(part_of(p, k), p->scene, samples);
+    const cgt_result result = step_parts(p, samples);
     if (left)
         *left = cgt_draw_samples(&p->opaque) - p->opaque.samples;
     return fail_drawing(p, result);
@@ -263,13 +306,60 @@ cgt_result cgt_picture_read(cgt_picture *p, const cgt_image *image)
     return tell_drawing(p, result);
 }
 
+/* Rows of pixels whose planes are some 32 MB, the bands as even as can be. */
+static uint32_t band_rows(cgt_picture *p)
+{
+    const uint32_t rows = p->options.work.row_count;
+    size_t bytes = p->opaque.whole ? cgt_draw_row_bytes(&p->whole) : 0;
+    for (uint32_t k = 0; k <= layers_of(&p->options); k++)
+        bytes += cgt_draw_row_bytes(part_of(p, k));
+    const size_t most = BAND_BYTES / bytes > LEAST_BAND ? BAND_BYTES / bytes : LEAST_BAND;
+    const uint32_t bands = (uint32_t)((rows + most - 1) / most);
+    return (rows + bands - 1) / bands;
+}
+
+/* Draws bands of rows one after the other, in the same memory. */
+static cgt_result draw_bands(cgt_picture *p, const cgt_trace_options *options)
+{
+    const cgt_picture_work work = p->options.work;
+    const uint32_t band = band_rows(p);
+    cgt_result result = CGT_OK;
+    uint64_t hits = 0;
+    for (uint32_t done = 0; done < work.row_count && result == CGT_OK; done += band) {
+        p->options.work.first_row = work.first_row + done;
+        p->options.work.row_count = work.row_count - done < band ? work.row_count - done : band;
+        set_parts(p);
+        move_planes(p, true);
+        result = trace_parts(p, options);
+        if (result == CGT_OK)
+            result = step_parts(p, UINT32_MAX);
+        if (result == CGT_OK)
+            result = cgt_draw_shade(&p->opaque);
+        hits += atomic_load_explicit(&p->opaque.hits, memory_order_relaxed);
+    }
+    p->options.work = work;
+    set_parts(p);
+    atomic_store_explicit(&p->opaque.hits, hits, memory_order_relaxed);
+    return result;
+}
+
 cgt_result cgt_picture_draw(cgt_picture *p, const cgt_scene *scene, const cgt_camera *camera, const cgt_look *looks,
                             uint32_t look_count, const cgt_image *image, const cgt_trace_options *options)
 {
-    cgt_result result = cgt_picture_begin(p, scene, camera, looks, look_count, options);
+    const bool counts = options && (options->statistics || options->research); /* of one call */
+    if (!p || p->failed || p->options.shading != CGT_SHADING_FULL || counts || !scene || !image) {
+        cgt_result result = cgt_picture_begin(p, scene, camera, looks, look_count, options);
+        if (result == CGT_OK)
+            result = cgt_picture_step(p, UINT32_MAX, NULL);
+        return result == CGT_OK ? cgt_picture_read(p, image) : result;
+    }
+    cgt_result result = begin(p, scene, camera, looks, look_count);
     if (result == CGT_OK)
-        result = cgt_picture_step(p, UINT32_MAX, NULL);
-    return result == CGT_OK ? cgt_picture_read(p, image) : result;
+        result = cgt_picture_check_image(image, &p->options, &p->opaque.image, p->message, sizeof p->message);
+    if (result != CGT_OK)
+        return result;
+    p->scene = scene;
+    return tell_drawing(p, draw_bands(p, options));
 }
 
 uint64_t cgt_picture_get_hits(const cgt_picture *p)

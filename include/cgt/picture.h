@@ -222,10 +222,10 @@ typedef struct cgt_picture cgt_picture;
  *   options   NULL: the defaults; copied
  *   picture   gets the picture; on an error, one that has the message, or NULL if there is no memory even for that
  * Memory:  the C library's. PLAIN: 10 KB. BOUNCES: 20 bytes a ray, and 3.3 MB + 1.4 MB * (bounces + 1) for each thread
- *          while it traces. Else 24 bytes a ray (a pixel has antialias * antialias), 8 more from the first
- *          picture with triangles, 4 with ambient occlusion, 8 after two steps of it, 1 for each hard light with
- *          shadows, 4 for each soft one, all of it again for each layer; during a step with soft lights 600 bytes for
- *          each ray of a row, times its samples
+ *          while it traces. Else 24 bytes a ray (a pixel has antialias * antialias), 8 more from the first picture
+ *          with triangles, 4 with ambient occlusion, 8 after two steps of it, 1 for each hard light with shadows, 4 for
+ *          each soft one, all of it again for each layer; with antialiasing and no layer 4 more, and as much as a ray
+ *          for each pixel; during a step with soft lights 600 bytes for each ray of a row, times its samples
  * Threads: one at a time uses a picture; several pictures may be made of one scene at once
  * Errors:  INVALID_ARGUMENT, OUT_OF_MEMORY, TOO_LARGE */
 CGT_API cgt_result cgt_picture_create(cgt_context *context, const cgt_picture_options *options, cgt_picture **picture);
@@ -240,7 +240,8 @@ CGT_API cgt_result cgt_picture_set_options(cgt_picture *picture, const cgt_pictu
 /* Copies the message of the last call that failed on this picture, as cgt_context_get_error_message does. */
 CGT_API size_t cgt_picture_get_error_message(const cgt_picture *picture, char *text, size_t size);
 
-/* Makes a whole picture: begin, all steps, read. Arguments and errors are theirs. */
+/* Makes a whole picture: begin, all steps, read. Arguments and errors are theirs. With CGT_SHADING_FULL and without
+ * statistics large ones are drawn by bands of rows, which touch some 32 MB of the memory; there is nothing to read then. */
 CGT_API cgt_result cgt_picture_draw(cgt_picture *picture, const cgt_scene *scene, const cgt_camera *camera,
                                     const cgt_look *looks, uint32_t look_count, const cgt_image *image,
                                     const cgt_trace_options *options);

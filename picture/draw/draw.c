@@ -10,94 +10,112 @@
 
 /* ---- Memory ------------------------------------------------------------------------------------------------- */
 
+/* Whole pixels leave the rays of others apart. */
+static int has_rest(const drawing *d) { return d->antialias > 1 && draw_keeps_whole(d->options); }
+
 /* Bytes a ray: t, primitive, geometry and normal; then what the lights need. */
-static size_t bytes_a_ray(const cgt_picture_options *o)
+static size_t bytes_a_ray(const drawing *d)
 {
+    const cgt_picture_options *const o = d->options;
     size_t bytes = 6 * sizeof(float);
     if (o->shading == CGT_SHADING_BOUNCES)
         return 5 * sizeof(float);
+    bytes += has_rest(d) ? sizeof(uint32_t) : 0;
     bytes += o->lighting.ambient ? sizeof(float) : 0;
     for (uint32_t i = 0; i < o->lighting.light_count; i++)
         bytes += !o->lighting.lights[i].shadows ? 0 : draw_is_soft(&o->lighting.lights[i]) ? sizeof(float) : 1;
     return bytes;
 }
 
-static float *take(char **memory, size_t rays)
+/* The next plane of the memory, whose element `before` is its first. */
+static void *take(uintptr_t *memory, size_t rays, size_t bytes, size_t before)
 {
-    float *plane = (float *)(void *)*memory;
-    *memory += rays * sizeof(float);
+    void *const plane = (void *)(*memory - before * bytes);
+    *memory += rays * bytes;
     return plane;
 }
 
-/* Cuts the memory into planes; those of bytes come last, so that all are aligned. */
-static void lay_out(drawing *d, size_t rays)
+/* Cuts the memory into planes that begin at a row; those of bytes come last, so that all are aligned. */
+static void lay_out(drawing *d, uint32_t first_row)
 {
     const cgt_picture_options *o = d->options;
-    char *memory = d->memory;
-    d->t = take(&memory, rays);
-    d->primitive = (uint32_t *)(void *)take(&memory, rays);
+    const size_t rays = (size_t)d->ray_width * d->ray_height, before = (size_t)d->ray_width * first_row;
+    const size_t size = sizeof(float);
+    uintptr_t memory = (uintptr_t)d->memory;
+    d->t = take(&memory, rays, size, before);
+    d->primitive = take(&memory, rays, size, before);
     if (o->shading == CGT_SHADING_BOUNCES) {
-        d->light = (float(*)[3])(void *)memory;
+        d->light = take(&memory, rays, sizeof *d->light, before);
         return;
     }
-    d->geometry = (uint32_t *)(void *)take(&memory, rays);
+    d->geometry = take(&memory, rays, size, before);
     for (int c = 0; c < 3; c++)
-        d->normal[c] = take(&memory, rays);
-    d->sky_plane = o->lighting.ambient ? take(&memory, rays) : NULL;
+        d->normal[c] = take(&memory, rays, size, before);
+    d->rest_plane = has_rest(d) ? take(&memory, rays, size, before) : NULL;
+    d->sky_plane = o->lighting.ambient ? take(&memory, rays, size, before) : NULL;
     for (uint32_t i = 0; i < o->lighting.light_count; i++)
-        d->reach_plane[i] = draw_is_soft(&o->lighting.lights[i]) ? take(&memory, rays) : NULL;
+        d->reach_plane[i] = draw_is_soft(&o->lighting.lights[i]) ? take(&memory, rays, size, before) : NULL;
     for (uint32_t i = 0; i < o->lighting.light_count; i++) {
         const int is_hard = o->lighting.lights[i].shadows && !draw_is_soft(&o->lighting.lights[i]);
-        d->occluded[i] = is_hard ? (uint8_t *)memory : NULL;
-        memory += is_hard ? rays : 0;
+        d->occluded[i] = is_hard ? take(&memory, rays, 1, before) : NULL;
     }
 }
 
-/* The rays of a pixel are shared by its rays of antialiasing, rounded up. */
-static uint32_t share_of(uint32_t rays, uint32_t antialias)
+size_t cgt_draw_row_bytes(const drawing *d) { return bytes_a_ray(d) * d->ray_width * d->antialias; }
+
+void cgt_draw_move_planes(drawing *d, uint32_t first_row)
 {
-    const uint32_t sharers = antialias * antialias;
-    return rays > sharers ? (rays + sharers - 1) / sharers : 1;
+    d->first_plane_row = first_row;
+    lay_out(d, first_row);
+}
+
+/* The rays of a pixel are shared by its rays of antialiasing, rounded up. */
+static uint32_t share_of(uint32_t rays, const drawing *d)
+{
+    const uint32_t sharers = d->options->antialias * d->options->antialias;
+    const uint32_t share = rays > sharers ? (rays + sharers - 1) / sharers : 1;
+    return d->antialias == d->options->antialias ? share : share * draw_whole_rays(d->options);
 }
 
 int cgt_draw_init(drawing *d)
 {
     const cgt_picture_options *o = d->options;
-    d->ray_width = o->width * o->antialias;
-    d->ray_height = o->height * o->antialias;
+    d->ray_width = o->width * d->antialias;
+    d->ray_height = o->height * d->antialias;
     d->share = 1.0f / (float)(o->antialias * o->antialias);
     if (o->shading == CGT_SHADING_PLAIN)
         return 0;
     const uint64_t rays = (uint64_t)d->ray_width * d->ray_height;
-    const size_t bytes = bytes_a_ray(o);
+    const size_t bytes = bytes_a_ray(d);
     if (rays > SIZE_MAX / bytes)
         return -1;
     d->memory = malloc((size_t)rays * bytes);
     if (!d->memory)
         return -1;
-    lay_out(d, (size_t)rays);
+    lay_out(d, 0);
     return 0;
 }
 
 /* Rows of rays above and below that shading looks at: by averages over neighbours, and by outlines. */
-static uint32_t margin_of(const cgt_picture_options *o)
+static uint32_t margin_of(const drawing *d)
 {
+    const cgt_picture_options *const o = d->options;
     if (o->shading != CGT_SHADING_FULL)
         return 0;
     const float line = o->style.outline > 0.0f ? fmaxf(1.0f, ceilf(o->style.outline * (float)o->antialias)) : 0.0f;
-    const uint32_t neighbours = DRAW_NEIGHBOURS * o->antialias;
+    const uint32_t neighbours = DRAW_NEIGHBOURS * d->antialias;
     return line > (float)neighbours ? (uint32_t)line : neighbours;
 }
 
 void cgt_draw_set_options(drawing *d, const cgt_picture_options *options)
 {
     d->options = options;
-    d->ambient = d->sky_plane ? share_of(options->lighting.ambient, options->antialias) : 0;
+    d->ambient = d->sky_plane ? share_of(options->lighting.ambient, d) : 0;
     d->light_samples = 0;
     for (uint32_t i = 0; i < options->lighting.light_count; i++)
         if (d->reach_plane[i])
-            d->light_samples = share_of(options->lighting.light_samples, options->antialias);
-    const uint32_t n = options->antialias, margin = margin_of(options);
+            d->light_samples = share_of(options->lighting.light_samples, d);
+    const uint32_t n = d->antialias, margin = margin_of(d);
     const uint32_t first = options->work.first_row * n, end = first + options->work.row_count * n;
     d->first_ray_row = first > margin ? first - margin : 0;
     d->ray_rows = (d->ray_height - end > margin ? end + margin : d->ray_height) - d->first_ray_row;
@@ -175,14 +193,16 @@ void cgt_camera_get_key_light(const cgt_camera *camera, uint32_t width, uint32_t
 /* ---- The frame ---------------------------------------------------------------------------------------------- */
 
 /* Where on triangles and capsules the hits are, which spheres do not need. */
-static int make_uv(drawing *d)
+int cgt_draw_make_uv(drawing *d)
 {
     const size_t rays = (size_t)d->ray_width * d->ray_height;
     if (!d->uv_memory)
         d->uv_memory = malloc(rays * 2 * sizeof(float)); /* cgt_draw_init has checked a larger size */
-    d->u = d->uv_memory;
-    d->v = d->u ? d->u + rays : NULL;
-    return d->u ? 0 : -1;
+    uintptr_t memory = (uintptr_t)d->uv_memory;
+    const size_t before = (size_t)d->ray_width * d->first_plane_row;
+    d->u = memory ? take(&memory, rays, sizeof *d->u, before) : NULL;
+    d->v = memory ? take(&memory, rays, sizeof *d->v, before) : NULL;
+    return memory ? 0 : -1;
 }
 
 cgt_frame cgt_draw_frame(const drawing *d)
@@ -199,19 +219,24 @@ cgt_frame cgt_draw_frame(const drawing *d)
     return frame;
 }
 
-cgt_result cgt_draw_trace(drawing *d, const cgt_scene *scene, const cgt_trace_options *options)
+void cgt_draw_forget_light(drawing *d)
 {
-    cgt_frame frame = cgt_draw_frame(d);
-    if (d->has_triangles || d->has_halves) {
-        if (make_uv(d))
-            return CGT_ERROR_OUT_OF_MEMORY;
-        frame.u = d->u;
-        frame.v = d->v;
-    }
     d->samples = 0;
     d->sky = NULL;
     for (uint32_t i = 0; i < d->options->lighting.light_count; i++)
         d->reach[i] = NULL;
+}
+
+cgt_result cgt_draw_trace(drawing *d, const cgt_scene *scene, const cgt_trace_options *options)
+{
+    cgt_frame frame = cgt_draw_frame(d);
+    if (d->has_triangles || d->has_halves) {
+        if (cgt_draw_make_uv(d))
+            return CGT_ERROR_OUT_OF_MEMORY;
+        frame.u = d->u;
+        frame.v = d->v;
+    }
+    cgt_draw_forget_light(d);
     const cgt_result result = cgt_trace_camera(scene, &d->camera, &frame, options);
     if (result != CGT_OK)
         return result;
@@ -220,7 +245,8 @@ cgt_result cgt_draw_trace(drawing *d, const cgt_scene *scene, const cgt_trace_op
         if (hidden != CGT_OK)
             return hidden;
     }
-    return draw_is_stopped(d) ? CGT_ERROR_STOPPED : cgt_draw_trace_hard_lights(d, scene);
+    const cgt_result lit = draw_is_stopped(d) ? CGT_ERROR_STOPPED : cgt_draw_trace_hard_lights(d, scene);
+    return lit == CGT_OK && d->whole ? cgt_draw_find_whole(d) : lit;
 }
 
 uint32_t cgt_draw_samples(const drawing *d) { return d->ambient > d->light_samples ? d->ambient : d->light_samples; }
@@ -231,7 +257,7 @@ static uint32_t rest_of(uint32_t whole, uint32_t done, uint32_t more)
     return whole <= done ? 0 : whole - done < more ? whole - done : more;
 }
 
-cgt_result cgt_draw_step(drawing *d, const cgt_scene *scene, uint32_t samples)
+static cgt_result step_rays(drawing *d, const cgt_scene *scene, uint32_t samples)
 {
     cgt_result result = cgt_draw_trace_sky(d, scene, rest_of(d->ambient, d->samples, samples));
     for (uint32_t i = 0; i < d->options->lighting.light_count && result == CGT_OK; i++)
@@ -239,6 +265,15 @@ cgt_result cgt_draw_step(drawing *d, const cgt_scene *scene, uint32_t samples)
             result = cgt_draw_trace_soft_light(d, scene, i, rest_of(d->light_samples, d->samples, samples));
     d->samples += rest_of(cgt_draw_samples(d), d->samples, samples);
     return result;
+}
+
+cgt_result cgt_draw_step(drawing *d, const cgt_scene *scene, uint32_t samples)
+{
+    const uint32_t more = rest_of(cgt_draw_samples(d), d->samples, samples);
+    cgt_result result = step_rays(d, scene, more);
+    if (result == CGT_OK && d->whole)
+        result = step_rays(d->whole, scene, more * draw_whole_rays(d->options));
+    return result == CGT_OK && d->whole ? cgt_draw_spread_whole(d) : result;
 }
 
 static void shade_row(void *argument, uint32_t index)

@@ -27,7 +27,9 @@ struct drawing {
     cgt_image image;           /* that is made; row_stride and channels are set */
     atomic_uint_fast64_t hits; /* rays of it with a hit */
     /* The frame's planes, of width * antialias by height * antialias rays. */
+    uint32_t antialias; /* of the options; 1 of whole pixels */
     uint32_t ray_width, ray_height;
+    uint32_t first_plane_row;            /* at which the planes' memory begins: above it they have none */
     uint32_t first_ray_row, ray_rows;    /* that are traced: those of the picture's rows, and what these look at */
     float share;                         /* of a ray in its pixel */
     void *memory, *uv_memory, *more_sky; /* of all planes; of u and v, from the first frame with triangles on; of a
@@ -42,6 +44,10 @@ struct drawing {
     float *reach_plane[CGT_PICTURE_MAX_LIGHTS];   /* these two are planes, those NULL before the first step */
     uint8_t *occluded[CGT_PICTURE_MAX_LIGHTS];    /* of a hard light: 1 where it does not arrive; NULL: it does */
     float right[3], up[3], forward[3], origin[3]; /* of the camera: ray = origin or forward, plus shares of right, up */
+    /* Whole pixels go on as one ray each, in a frame of their own, and `rest` has the primitives of the other rays; see
+     * draw_whole.c. NULL: there are none. */
+    drawing *whole;
+    uint32_t *rest_plane;
     /* What is transparent has planes of its own, where it is nearer than what is opaque; else its rays hit nothing. */
     drawing *layer; /* of the opaque one */
     uint32_t layers;
@@ -56,6 +62,11 @@ int cgt_draw_init(drawing *d);
 /* Sets the options, whose planes must be those of the last, and the rows of rays. */
 void cgt_draw_set_options(drawing *d, const cgt_picture_options *options);
 void cgt_draw_free(drawing *d);
+
+/* Bytes of planes for each row of pixels; lets the planes' memory begin at a row of rays, so that a picture may be made by
+ * bands of rows in the same small part of it, which stays in the caches and takes few pages. */
+size_t cgt_draw_row_bytes(const drawing *d);
+void cgt_draw_move_planes(drawing *d, uint32_t first_row);
 
 /* The rays of a frame, before its planes or tiles are traced. */
 void cgt_draw_begin(drawing *d, const cgt_camera *camera);
@@ -86,6 +97,29 @@ static inline int draw_is_soft(const cgt_picture_light *light) { return light->s
 /* draw.c: the planes of hits that there are as a frame's, with the rows that are traced. */
 cgt_frame cgt_draw_frame(const drawing *d);
 
+/* The same: nothing of the sky and soft lights is traced yet. */
+void cgt_draw_forget_light(drawing *d);
+
+/* The same: planes of u and v. Returns 0, or -1 where memory is missing. */
+int cgt_draw_make_uv(drawing *d);
+
+/* draw_whole.c: whether a picture of these options has planes for whole pixels, and whether there are any: outlines want
+ * every ray. How many rays to the sky or to a light such a pixel takes for one of another ray. */
+static inline int draw_keeps_whole(const cgt_picture_options *o)
+{
+    return o->shading == CGT_SHADING_FULL && o->antialias > 1 && !o->style.layer_count;
+}
+static inline int draw_has_whole(const cgt_picture_options *o)
+{
+    return draw_keeps_whole(o) && !(o->style.outline > 0.0f);
+}
+static inline const uint32_t *draw_rest(const drawing *d) { return d->whole ? d->rest_plane : d->primitive; }
+static inline uint32_t draw_whole_rays(const cgt_picture_options *o) { return o->antialias * o->antialias; }
+
+/* The same: finds them after the camera's rays and hard lights; lays what they see on their rays, after each step. */
+cgt_result cgt_draw_find_whole(drawing *d);
+cgt_result cgt_draw_spread_whole(drawing *d);
+
 /* draw_light.c: hard lights; more rays to the sky and to soft lights. */
 cgt_result cgt_draw_trace_hard_lights(drawing *d, const cgt_scene *scene);
 cgt_result cgt_draw_trace_sky(drawing *d, const cgt_scene *scene, uint32_t samples);
@@ -94,9 +128,9 @@ cgt_result cgt_draw_trace_soft_light(drawing *d, const cgt_scene *scene, uint32_
 /* draw_smooth.c: of `count` rays from (x, y) on, at most DRAW_BLOCK, what is sampled with few rays, averaged with their
  * neighbours: first the sky where there is one, then each soft light. Those of rays without a hit are undefined. */
 enum { DRAW_NEIGHBOURS = 2 }; /* rows of pixels above and below that these are in, at most */
-enum { DRAW_BLOCK = 128, DRAW_SMOOTHED = 1 + CGT_PICTURE_MAX_LIGHTS };
+enum { DRAW_BLOCK = 128, DRAW_PAD = 4, DRAW_SMOOTHED = 1 + CGT_PICTURE_MAX_LIGHTS };
 typedef struct draw_means {
-    float mean[DRAW_SMOOTHED][DRAW_BLOCK];
+    float mean[DRAW_SMOOTHED][DRAW_BLOCK + DRAW_PAD]; /* whole vectors are stored */
 } draw_means;
 void cgt_draw_smooth(const drawing *d, uint32_t x, uint32_t y, uint32_t count, draw_means *means);
 

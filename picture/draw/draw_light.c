@@ -60,7 +60,7 @@ static cgt_camera light_camera(const drawing *d)
 
 cgt_result cgt_draw_trace_sky(drawing *d, const cgt_scene *scene, uint32_t samples)
 {
-    const cgt_frame frame = cgt_draw_frame(d);
+    cgt_frame frame = cgt_draw_frame(d);
     sky_step step = {.drawing = d, .samples = samples};
     cgt_ambient_options ambient;
     if (!samples)
@@ -81,6 +81,7 @@ cgt_result cgt_draw_trace_sky(drawing *d, const cgt_scene *scene, uint32_t sampl
         ambient.visitor_user = &step;
     }
     d->sky = d->sky_plane;
+    frame.primitive = (uint32_t *)draw_rest(d);
     const cgt_camera camera = light_camera(d);
     return cgt_ambient_occlusion(scene, &camera, &frame, &ambient, d->samples ? d->more_sky : d->sky_plane, NULL);
 }
@@ -253,13 +254,14 @@ static cgt_result trace_strip(drawing *d, const cgt_scene *scene, light_rays *r,
 {
     const size_t first = (size_t)y0 * d->ray_width;
     const uint32_t end = d->first_ray_row + d->ray_rows, y1 = y0 + ROWS < end ? y0 + ROWS : end;
+    const uint32_t *const rest = draw_rest(d);
     r->hits = 0;
     for (uint32_t y = y0 > d->first_ray_row ? y0 : d->first_ray_row; y < y1; y++)
         for (uint32_t x = 0; x < d->ray_width; x++) {
             const size_t element = (size_t)y * d->ray_width + x;
             if (!r->first)
                 reach[element] = 1.0f;
-            if (d->primitive[element] != CGT_INVALID_ID && !is_averted(d, r->light, element, x, y))
+            if (rest[element] != CGT_INVALID_ID && !is_averted(d, r->light, element, x, y))
                 append_hit(r, d, x, y, element);
         }
     const cgt_rays rays = {.count = (uint64_t)r->hits * r->samples,

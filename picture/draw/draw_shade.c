@@ -126,13 +126,34 @@ static void add_layered_rays(const drawing *d, uint32_t x, uint32_t y, uint32_t 
             add_ray(&light[i], &sum[i / n]);
 }
 
+/* Adds whole pixels among those of a row, each as all of its rays. */
+static void add_whole(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels, pixel_sum *sum)
+{
+    const drawing *const w = d->whole;
+    const uint32_t n = d->options->antialias, rays = n * n, *const primitive = w->primitive + (size_t)py * w->ray_width;
+    draw_means means;
+    cgt_draw_smooth(w, px, py, pixels, &means);
+    for (uint32_t i = 0; i < pixels; i++) {
+        draw_ray_light light;
+        if (primitive[px + i] == CGT_INVALID_ID)
+            continue;
+        cgt_draw_shade_ray(w, px, py, &means, i, &light);
+        for (int c = 0; c < 3; c++)
+            sum[i].hits[c] = (float)rays * light.color[c];
+        sum[i].count = rays;
+        sum[i].cover = (float)rays;
+        sum[i].id = light.id;
+        const float *const t = d->t + (size_t)py * n * d->ray_width + (size_t)(px + i) * n;
+        for (uint32_t k = 0; k < rays && d->image.linear; k++)
+            sum[i].depth = fminf(sum[i].depth, t[k / n * d->ray_width + k % n]);
+    }
+}
+
 /* Adds the rays of `pixels` pixels of a row, from px on, ray row by ray row. */
 static void add_rays(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels, pixel_sum *sum)
 {
     const uint32_t n = d->options->antialias;
     draw_means means;
-    for (uint32_t i = 0; i < pixels; i++)
-        sum[i] = (pixel_sum){.depth = INFINITY, .id = CGT_INVALID_ID};
     for (uint32_t y = py * n; y < (py + 1) * n; y++) {
         const uint32_t *primitive = d->primitive + (size_t)y * d->ray_width + (size_t)px * n;
         cgt_draw_smooth(d, px * n, y, pixels * n, &means);
@@ -146,6 +167,21 @@ static void add_rays(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels
                 cgt_draw_shade_ray(d, px * n, y, &means, i, &light);
                 add_ray(&light, &sum[i / n]);
             }
+    }
+}
+
+/* The pixels of a row, from px on, that are not whole: cut where some in a row are. */
+static void add_rest(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels, pixel_sum *sum)
+{
+    const uint32_t n = d->options->antialias;
+    const uint32_t *const rest = d->rest_plane + (size_t)py * n * d->ray_width + (size_t)px * n;
+    for (uint32_t i = 0, end; i < pixels; i = end) {
+        end = i + 1;
+        if (draw_is_background(rest + (size_t)i * n, d->ray_width, n, n))
+            continue;
+        while (end < pixels && !draw_is_background(rest + (size_t)end * n, d->ray_width, n, n))
+            end++;
+        add_rays(d, px + i, py, end - i, sum + i);
     }
 }
 
@@ -178,7 +214,13 @@ uint32_t cgt_draw_shade_row(const drawing *d, uint32_t y)
             draw_fill_background(d, x, y, pixels);
             continue;
         }
-        add_rays(d, x, y, pixels, sums);
+        for (uint32_t i = 0; i < pixels; i++)
+            sums[i] = (pixel_sum){.depth = INFINITY, .id = CGT_INVALID_ID};
+        if (d->whole) {
+            add_whole(d, x, y, pixels, sums);
+            add_rest(d, x, y, pixels, sums);
+        } else
+            add_rays(d, x, y, pixels, sums);
         for (uint32_t i = 0; i < pixels; i++) {
             add_background(d, &sums[i]);
             draw_store(d, &sums[i], x + i, y);

@@ -6,145 +6,198 @@
  * the neighbours, and the pixel's mean over its rays has all of them. The outer rows and columns count half, so that
  * the window has each of the 4x4 runs of draw_light.c, and of the parts of the sky, as often as any other. The more
  * normals differ, the less a neighbour counts: what a sphere sees changes across a few pixels, and an even mean errs
- * more by that than by having few rays. A row of rays goes through the places of the window one after the other, in
- * loops without branches, which a compiler vectorises: each ray adds up its neighbours in the order of the window. */
+ * more by that than by having few rays. Four rays of a row go side by side, and each adds up its neighbours in the
+ * order of the window; rays whose window leaves the picture go one by one. */
 #include <math.h>
 #include <string.h>
 
 #include "draw/draw.h"
 
-enum { REACH = DRAW_NEIGHBOURS }; /* pixels of the window to each side of its centre */
+enum { REACH = DRAW_NEIGHBOURS, LANES = DRAW_PAD }; /* REACH: pixels of the window to each side of its centre */
 
 static const float least_cosine = 0.9f; /* between normals */
+static const float least_step = 0.02f;  /* share of t by which triangles of one plane differ at most */
 
-/* Some rays of a row: those from the first hit of a block to the last. */
-typedef struct smooth_rays {
+typedef float floats __attribute__((vector_size(LANES * sizeof(float))));
+typedef int32_t ints __attribute__((vector_size(LANES * sizeof(int32_t)))); /* and masks, all ones where they hold */
+
+typedef struct smooth_planes {
     const drawing *drawing;
-    const float *plane[DRAW_SMOOTHED];
-    uint32_t planes;
-    uint32_t x, y, count;
-    int has_triangles;
-    uint8_t triangle[DRAW_BLOCK]; /* 1 where a ray hits one */
-    float weight[DRAW_BLOCK];     /* of its neighbour at one place of the window */
-    float total[DRAW_BLOCK];      /* of its weights */
-    float *sum[DRAW_SMOOTHED];    /* of what its neighbours see */
-} smooth_rays;
+    const float *plane[DRAW_SMOOTHED]; /* to average */
+    uint32_t count;
+} smooth_planes;
 
-/* The planes to average; hard shadows stay sharp. */
-static void find_planes(smooth_rays *r)
+/* Hard shadows stay sharp. */
+static void find_planes(const drawing *d, smooth_planes *s)
 {
-    const drawing *d = r->drawing;
-    r->planes = 0;
+    s->drawing = d;
+    s->count = 0;
     if (d->sky)
-        r->plane[r->planes++] = d->sky;
+        s->plane[s->count++] = d->sky;
     for (uint32_t i = 0; i < d->options->lighting.light_count; i++)
         if (d->reach[i])
-            r->plane[r->planes++] = d->reach[i];
+            s->plane[s->count++] = d->reach[i];
 }
 
-/* Cuts misses off at both ends. */
-static void skip_misses(smooth_rays *r)
+/* The most that a neighbour counts, which is where normals are the same. */
+static inline float most_of(int32_t below, int32_t right)
 {
-    const uint32_t *primitive = r->drawing->primitive + (size_t)r->y * r->drawing->ray_width + r->x;
-    while (r->count && primitive[r->count - 1] == CGT_INVALID_ID)
-        r->count--;
-    for (; r->count && *primitive == CGT_INVALID_ID; primitive++) {
-        r->x++;
-        r->count--;
+    return (below == -REACH || below == REACH ? 0.5f : 1.0f) * (right == -REACH || right == REACH ? 0.5f : 1.0f);
+}
+
+/* ---- One ray ------------------------------------------------------------------------------------------------- */
+
+/* How much neighbour k of ray `own` counts: above 0 where it hits the same surface, `most` times what the cosine between
+ * normals is above its least. Of triangles neighbours in the same plane count. */
+static float weigh(const drawing *d, size_t own, size_t k, float most)
+{
+    const int same = draw_look(d, d->geometry[own])->is_triangles
+                         ? !(fabsf(d->t[k] - d->t[own]) > least_step * d->t[own])
+                         : d->primitive[k] == d->primitive[own];
+    if (!same || d->geometry[k] != d->geometry[own])
+        return 0.0f;
+    const float above = fabsf(d->normal[0][own] * d->normal[0][k] + d->normal[1][own] * d->normal[1][k] +
+                              d->normal[2][own] * d->normal[2][k]) -
+                        least_cosine;
+    return above > 0.0f ? most * above : 0.0f;
+}
+
+/* Averages over those neighbours of ray (x, y) that the picture has. Element i of each mean is the ray's. */
+static void smooth_ray(const smooth_planes *s, uint32_t x, uint32_t y, uint32_t i, draw_means *means)
+{
+    const drawing *const d = s->drawing;
+    const int64_t n = d->antialias;
+    const size_t own = (size_t)y * d->ray_width + x;
+    float sum[DRAW_SMOOTHED] = {0.0f}, total = 0.0f;
+    for (int32_t below = -REACH; below <= REACH; below++)
+        for (int32_t right = -REACH; right <= REACH; right++) {
+            const int64_t column = x + n * right, row = y + n * below;
+            if (column < 0 || column >= d->ray_width || row < 0 || row >= d->ray_height)
+                continue;
+            const size_t k = (size_t)row * d->ray_width + (size_t)column;
+            const float weight = weigh(d, own, k, most_of(below, right));
+            total += weight;
+            for (uint32_t p = 0; p < s->count; p++)
+                sum[p] += weight * s->plane[p][k];
+        }
+    for (uint32_t p = 0; p < s->count; p++)
+        means->mean[p][i] = total > 0.0f ? sum[p] / total : s->plane[p][own];
+}
+
+/* ---- Four rays ----------------------------------------------------------------------------------------------- */
+
+static inline floats load(const float *from)
+{
+    floats v;
+    memcpy(&v, from, sizeof v);
+    return v;
+}
+
+static inline ints load_ids(const uint32_t *from)
+{
+    ints v;
+    memcpy(&v, from, sizeof v);
+    return v;
+}
+
+static inline floats absolute(floats v) { return (floats)((ints)v & INT32_MAX); }
+
+static inline floats select(floats a, floats b, ints mask) { return (floats)(((ints)a & ~mask) | ((ints)b & mask)); }
+
+/* Four rays side by side, the first is `own`. */
+typedef struct smooth_lanes {
+    floats normal[3], t;
+    ints geometry, primitive, triangles;
+    int has_triangles;
+} smooth_lanes;
+
+static inline smooth_lanes load_lanes(const drawing *d, size_t own)
+{
+    smooth_lanes l = {.geometry = load_ids(d->geometry + own), .primitive = load_ids(d->primitive + own)};
+    for (int c = 0; c < 3; c++)
+        l.normal[c] = load(d->normal[c] + own);
+    l.has_triangles = 0;
+    for (int i = 0; i < LANES && d->has_triangles; i++) {
+        const uint32_t geometry = d->geometry[own + (size_t)i];
+        const int is_triangle = geometry != CGT_INVALID_ID && draw_look(d, geometry)->is_triangles;
+        l.triangles[i] = -is_triangle;
+        l.has_triangles |= is_triangle;
+    }
+    if (l.has_triangles)
+        l.t = load(d->t + own);
+    return l;
+}
+
+/* weigh() of their neighbours, which begin at k. */
+static inline floats weigh_lanes(const drawing *d, const smooth_lanes *l, size_t k, float most)
+{
+    const floats above = absolute(l->normal[0] * load(d->normal[0] + k) + l->normal[1] * load(d->normal[1] + k) +
+                                  l->normal[2] * load(d->normal[2] + k)) -
+                         least_cosine;
+    ints same = load_ids(d->primitive + k) == l->primitive;
+    if (l->has_triangles) {
+        const ints near = ~(absolute(load(d->t + k) - l->t) > least_step * l->t);
+        same = (same & ~l->triangles) | (near & l->triangles);
+    }
+    same &= (load_ids(d->geometry + k) == l->geometry) & (above > 0.0f);
+    return (floats)((ints)(most * above) & same);
+}
+
+/* smooth_ray() of four rays whose windows lie within the picture's width. */
+static inline void smooth_lanes_of(const smooth_planes *s, uint32_t planes, uint32_t x, uint32_t y, uint32_t i,
+                                   draw_means *means)
+{
+    const drawing *const d = s->drawing;
+    const int64_t n = d->antialias, width = d->ray_width;
+    const size_t own = (size_t)y * d->ray_width + x;
+    const smooth_lanes l = load_lanes(d, own);
+    floats total = {0.0f}, sum[DRAW_SMOOTHED];
+    for (uint32_t p = 0; p < planes; p++)
+        sum[p] = (floats){0.0f};
+    for (int32_t below = -REACH; below <= REACH; below++) {
+        const int64_t row = y + n * below;
+        if (row < 0 || row >= d->ray_height)
+            continue;
+        for (int32_t right = -REACH; right <= REACH; right++) {
+            const size_t k = (size_t)(row * width + x + n * right);
+            const floats weight = weigh_lanes(d, &l, k, most_of(below, right));
+            total += weight;
+            for (uint32_t p = 0; p < planes; p++)
+                sum[p] += weight * load(s->plane[p] + k);
+        }
+    }
+    /* A hit counts itself, unless its normal is no unit vector. */
+    for (uint32_t p = 0; p < planes; p++) {
+        const floats mean = select(load(s->plane[p] + own), sum[p] / total, total > 0.0f);
+        memcpy(means->mean[p] + i, &mean, sizeof mean);
     }
 }
 
-static void find_triangles(smooth_rays *r)
+static int are_misses(const uint32_t *primitive, uint32_t count)
 {
-    const drawing *d = r->drawing;
-    const uint32_t *geometry = d->geometry + (size_t)r->y * d->ray_width + r->x;
-    r->has_triangles = 0;
-    for (uint32_t i = 0; i < r->count; i++) {
-        r->triangle[i] = geometry[i] != CGT_INVALID_ID && draw_look(d, geometry[i])->is_triangles;
-        r->has_triangles |= r->triangle[i];
-    }
-}
-
-/* Sets the weights of `count` rays from element a of the planes on, whose neighbours begin at b: above 0 where a
- * neighbour hits the same surface, `most` times what the cosine is above its least. Here of spheres alone. */
-static void weigh_spheres(const drawing *d, size_t a, size_t b, uint32_t count, float most, float *restrict weight)
-{
-    const float *const ax = d->normal[0] + a, *const ay = d->normal[1] + a, *const az = d->normal[2] + a;
-    const float *const bx = d->normal[0] + b, *const by = d->normal[1] + b, *const bz = d->normal[2] + b;
-    const uint32_t *const ag = d->geometry + a, *const ap = d->primitive + a;
-    const uint32_t *const bg = d->geometry + b, *const bp = d->primitive + b;
-    for (uint32_t i = 0; i < count; i++) {
-        const float above = fabsf(ax[i] * bx[i] + ay[i] * by[i] + az[i] * bz[i]) - least_cosine;
-        const uint32_t differs = (ag[i] ^ bg[i]) | (ap[i] ^ bp[i]);
-        weight[i] = (above > 0.0f ? differs : 1u) == 0u ? most * above : 0.0f;
-    }
-}
-
-/* The same where there are triangles, `triangle` says which: of them neighbours in the same plane count. */
-static void weigh(const drawing *d, size_t a, size_t b, uint32_t count, float most, const uint8_t *triangle,
-                  float *restrict weight)
-{
-    for (uint32_t i = 0; i < count; i++) {
-        const size_t k = a + i, n = b + i;
-        const float above = fabsf(d->normal[0][k] * d->normal[0][n] + d->normal[1][k] * d->normal[1][n] +
-                                  d->normal[2][k] * d->normal[2][n]) -
-                            least_cosine;
-        const int same =
-            triangle[i] ? !(fabsf(d->t[n] - d->t[k]) > 0.02f * d->t[k]) : d->primitive[k] == d->primitive[n];
-        weight[i] = d->geometry[k] == d->geometry[n] && same && above > 0.0f ? most * above : 0.0f;
-    }
-}
-
-/* 0 times a share of light is 0, and adds nothing. */
-static void add(float *restrict sum, const float *restrict weight, const float *restrict plane, uint32_t count)
-{
+    uint32_t combined = CGT_INVALID_ID;
     for (uint32_t i = 0; i < count; i++)
-        sum[i] += weight[i] * plane[i];
-}
-
-/* Adds the neighbours so many pixels below and to the right, where the picture has them. */
-static void add_neighbours(smooth_rays *r, int32_t below, int32_t right)
-{
-    const drawing *d = r->drawing;
-    const int64_t step = d->options->antialias, width = d->ray_width, x = r->x, end = x + r->count;
-    const int64_t aside = step * right, row = r->y + step * below;
-    const int64_t from = x + aside < 0 ? -aside : x, to = end + aside > width ? width - aside : end;
-    if (row < 0 || row >= d->ray_height || from >= to)
-        return;
-    const size_t center = (size_t)r->y * d->ray_width + (size_t)from;
-    const size_t neighbour = (size_t)row * d->ray_width + (size_t)(from + aside);
-    const uint32_t first = (uint32_t)(from - x), count = (uint32_t)(to - from);
-    const float most =
-        (below == -REACH || below == REACH ? 0.5f : 1.0f) * (right == -REACH || right == REACH ? 0.5f : 1.0f);
-    if (r->has_triangles)
-        weigh(d, center, neighbour, count, most, r->triangle + first, r->weight);
-    else
-        weigh_spheres(d, center, neighbour, count, most, r->weight);
-    for (uint32_t i = 0; i < count; i++)
-        r->total[first + i] += r->weight[i];
-    for (uint32_t k = 0; k < r->planes; k++)
-        add(r->sum[k] + first, r->weight, r->plane[k] + neighbour, count);
+        combined &= primitive[i];
+    return combined == CGT_INVALID_ID;
 }
 
 void cgt_draw_smooth(const drawing *d, uint32_t x, uint32_t y, uint32_t count, draw_means *means)
 {
-    smooth_rays r = {.drawing = d, .x = x, .y = y, .count = count};
-    find_planes(&r);
-    if (r.planes)
-        skip_misses(&r);
-    if (!r.planes || !r.count)
-        return;
-    find_triangles(&r);
-    for (uint32_t k = 0; k < r.planes; k++) {
-        r.sum[k] = means->mean[k] + (r.x - x);
-        memset(r.sum[k], 0, r.count * sizeof *r.sum[k]);
+    const uint32_t *const primitive = d->primitive + (size_t)y * d->ray_width + x;
+    const uint32_t aside = REACH * d->antialias;
+    smooth_planes s;
+    find_planes(d, &s);
+    for (uint32_t i = 0; i < count && s.count; i += LANES) {
+        const uint32_t lanes = count - i < LANES ? count - i : LANES, first = x + i;
+        if (are_misses(primitive + i, lanes))
+            continue;
+        if (first < aside || first + LANES + aside > d->ray_width) {
+            for (uint32_t k = i; k < i + lanes; k++)
+                if (primitive[k] != CGT_INVALID_ID)
+                    smooth_ray(&s, x + k, y, k, means);
+        } else if (s.count == 1) /* a copy without loops over planes */
+            smooth_lanes_of(&s, 1, first, y, i, means);
+        else
+            smooth_lanes_of(&s, s.count, first, y, i, means);
     }
-    for (int32_t below = -REACH; below <= REACH; below++)
-        for (int32_t right = -REACH; right <= REACH; right++)
-            add_neighbours(&r, below, right);
-    /* A hit counts itself, unless its normal is no unit vector; means of misses are not used. */
-    const size_t own = (size_t)y * d->ray_width + r.x;
-    for (uint32_t k = 0; k < r.planes; k++)
-        for (uint32_t i = 0; i < r.count; i++)
-            r.sum[k][i] = r.total[i] > 0.0f ? r.sum[k][i] / r.total[i] : r.plane[k][own + i];
 }

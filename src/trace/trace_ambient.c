@@ -14,12 +14,14 @@
 
 #define SQUARE_BITS 5u
 #define SQUARE_EDGE (1u << SQUARE_BITS)
-#define SQUARES 2u /* side by side, they make a tile: with four rays a pixel it fills a batch */
-#define LINE 16u   /* pixels of a cache line */
-#define BLOCK 4u   /* pixels of a square come in blocks of so many across and down */
+#define LEAST_SQUARES 2u /* side by side, they make a tile: with four rays a pixel it fills a batch */
+#define MOST_SQUARES 8u  /* the same where hits are few */
+#define TASKS_PER_THREAD 16u
+#define LINE 16u /* pixels of a cache line */
+#define BLOCK 4u /* pixels of a square come in blocks of so many across and down */
 #define BLOCK_PIXELS (BLOCK * BLOCK)
 #define WHOLE_BLOCK 0xffffu
-#define TILE_PIXELS (SQUARES * SQUARE_EDGE * SQUARE_EDGE)
+#define BATCH_PIXELS (LEAST_SQUARES * SQUARE_EDGE * SQUARE_EDGE) /* at most */
 #define SQUARE_BLOCKS (SQUARE_EDGE * SQUARE_EDGE / BLOCK_PIXELS)
 #define BATCH CGT_STREAM_CHUNK /* rays, at most */
 
@@ -32,6 +34,7 @@ typedef struct ambient_job {
     bool has_masks; /* the camera's mask leaves something out */
     cgt_trace_settings settings;
     size_t row_stride, vector_stride;
+    uint32_t squares; /* of a tile */
     uint32_t tiles_across;
     uint32_t batch; /* rays that are traced together */
     cgt_trace_counter *counter;
@@ -46,12 +49,12 @@ typedef struct ray_batch {
     float t_max[BATCH];
     uint32_t mask[BATCH];
     uint8_t occluded[BATCH + CGT_AMBIENT_PAD];
-    size_t element[TILE_PIXELS]; /* of the planes, of each pixel */
+    size_t element[BATCH_PIXELS]; /* of the planes, of each pixel */
     cgt_ambient_points points;
     cgt_counts counts;
 } ray_batch;
 
-_Static_assert(TILE_PIXELS <= CGT_AMBIENT_PIXELS, "a tile's pixels fit into a batch");
+_Static_assert(BATCH_PIXELS <= CGT_AMBIENT_PIXELS, "a batch has room for its pixels");
 _Static_assert(SQUARE_BLOCKS == 64, "even_bits takes six bits");
 
 /* ---- batches ---- */
@@ -142,72 +145,116 @@ static inline __attribute__((always_inline)) void append_pixels(const ambient_jo
 /* Traces the batch if it has no room for so many pixels more. */
 static inline void make_room(const ambient_job *job, uint32_t tile, uint32_t pixels, ray_batch *b)
 {
-    if ((b->pixels.count + pixels) * job->ambient.samples > job->batch)
+    const uint32_t count = b->pixels.count + pixels;
+    if (count * job->ambient.samples > job->batch || count > BATCH_PIXELS)
         trace_batch(job, tile, b);
 }
 
-/* Appends the pixels of a block with a hit; the others see the whole sky. */
-static void append_block(const ambient_job *job, uint32_t tile, uint32_t x0, uint32_t y0, ray_batch *b)
+/* The hits of a square: a bit for each pixel of a row. */
+typedef struct square_hits {
+    uint32_t row[SQUARE_EDGE];
+} square_hits;
+
+_Static_assert(SQUARE_EDGE == 32, "a row's hits are 32 bits");
+
+static void prefetch_primitives(const ambient_job *job, uint32_t x0, uint32_t y0)
 {
     const cgt_frame *f = job->frame;
-    const uint32_t width = f->width - x0 < BLOCK ? f->width - x0 : BLOCK;
-    const uint32_t height = f->height - y0 < BLOCK ? f->height - y0 : BLOCK;
-    const size_t first = (size_t)y0 * job->row_stride + x0;
+    const uint32_t width = f->width - x0 < SQUARE_EDGE ? f->width - x0 : SQUARE_EDGE;
+    for (uint32_t y = y0; y < y0 + SQUARE_EDGE && y < f->height; y++) {
+        const uint32_t *const row = f->primitive + (size_t)y * job->row_stride + x0;
+        for (uint32_t x = 0; x < width; x += LINE)
+            __builtin_prefetch(row + x);
+        __builtin_prefetch(row + width - 1); /* rows begin anywhere in a line */
+    }
+}
+
+/* CGT_INVALID_ID is all ones. */
+static inline bool are_misses(const uint32_t *primitive, uint32_t count)
+{
+    uint32_t all = CGT_INVALID_ID;
+    for (uint32_t x = 0; x < count; x++)
+        all &= primitive[x];
+    return all == CGT_INVALID_ID;
+}
+
+/* Finds the hits of a square; the other pixels see the whole sky. Returns whether there are any. */
+static bool find_hits(const ambient_job *job, uint32_t x0, uint32_t y0, square_hits *hits)
+{
+    const cgt_frame *f = job->frame;
+    const uint32_t width = f->width - x0 < SQUARE_EDGE ? f->width - x0 : SQUARE_EDGE;
+    uint32_t any = 0;
+    for (uint32_t y = 0; y < SQUARE_EDGE; y++) {
+        const size_t first = (size_t)(y0 + y) * job->row_stride + x0;
+        const uint32_t count = y0 + y < f->height ? width : 0;
+        uint32_t row = 0;
+        if (count && !are_misses(f->primitive + first, count))
+            for (uint32_t x = 0; x < count; x++)
+                row |= (uint32_t)(f->primitive[first + x] != CGT_INVALID_ID) << x;
+        for (uint32_t x = 0; x < count && row != UINT32_MAX; x++)
+            job->visibility[first + x] = 1;
+        hits->row[y] = row;
+        any |= row;
+    }
+    return any != 0;
+}
+
+/* Appends the pixels with a hit of a block that begins at (x, y) of the square at (x0, y0). */
+static void append_block(const ambient_job *job, uint32_t tile, const square_hits *of, uint32_t x0, uint32_t y0,
+                         uint32_t x, uint32_t y, ray_batch *b)
+{
+    const size_t first = (size_t)(y0 + y) * job->row_stride + x0 + x;
     uint32_t hits = 0;
-    for (uint32_t y = 0; y < height; y++)
-        for (uint32_t x = 0; x < width; x++)
-            hits |= (uint32_t)(f->primitive[first + y * job->row_stride + x] != CGT_INVALID_ID) << (y * BLOCK + x);
+    for (uint32_t row = 0; row < BLOCK; row++)
+        hits |= (of->row[y + row] >> x & 0xf) << (row * BLOCK);
     if (hits == WHOLE_BLOCK && BLOCK_PIXELS * job->ambient.samples <= job->batch) {
         make_room(job, tile, BLOCK_PIXELS, b);
-        for (uint32_t y = 0; y < BLOCK; y++)
-            append_pixels(job, x0, y0 + y, first + y * job->row_stride, BLOCK, b);
+        for (uint32_t row = 0; row < BLOCK; row++)
+            append_pixels(job, x0 + x, y0 + y + row, first + row * job->row_stride, BLOCK, b);
         return;
     }
-    for (uint32_t y = 0; y < height; y++)
-        for (uint32_t x = 0; x < width; x++) {
-            const size_t element = first + y * job->row_stride + x;
-            if (hits >> (y * BLOCK + x) & 1) {
-                make_room(job, tile, 1, b);
-                append_pixels(job, x0 + x, y0 + y, element, 1, b);
-            } else
-                job->visibility[element] = 1;
-        }
+    for (; hits; hits &= hits - 1) {
+        const uint32_t bit = (uint32_t)__builtin_ctz(hits), aside = bit % BLOCK, below = bit / BLOCK;
+        make_room(job, tile, 1, b);
+        append_pixels(job, x0 + x + aside, y0 + y + below, first + below * job->row_stride + aside, 1, b);
+    }
 }
 
 /* Bits 0, 2 and 4 of i: x of a block's Morton code in its square; of i >> 1: y. */
 static uint32_t even_bits(uint32_t i) { return (i & 1) | (i >> 1 & 2) | (i >> 2 & 4); }
 
-/* Prefetches what a square reads of the planes: along a Morton curve no machine foresees it. */
-static void prefetch_square(const ambient_job *job, uint32_t x0, uint32_t y0)
+/* Prefetches what a square reads of the planes where there are hits: along a Morton curve no machine foresees it. */
+static void prefetch_hits(const ambient_job *job, const square_hits *hits, uint32_t x0, uint32_t y0)
 {
     const cgt_frame *f = job->frame;
     const size_t apart = job->vector_stride;
     const struct {
         const void *elements;
         size_t stride; /* from one pixel to the next */
-    } plane[] = {{f->t, 1},
-                 {f->primitive, 1},
-                 {f->geometry, 1},
-                 {f->normal[0], apart},
-                 {f->normal[1], apart},
-                 {f->normal[2], apart},
-                 {job->visibility, 1}};
-    const uint32_t width = f->width - x0 < SQUARE_EDGE ? f->width - x0 : SQUARE_EDGE;
-    for (uint32_t y = y0; y < y0 + SQUARE_EDGE && y < f->height; y++)
-        for (uint32_t k = 0; k < sizeof plane / sizeof *plane; k++) {
-            const size_t bytes = plane[k].stride * sizeof(float), first = (size_t)y * job->row_stride + x0;
-            const char *row = (const char *)plane[k].elements + first * bytes;
-            const size_t step = bytes > LINE * sizeof(float) ? bytes : LINE * sizeof(float);
-            for (size_t i = 0; i < width * bytes; i += step)
-                __builtin_prefetch(row + i);
-            __builtin_prefetch(row + (width - 1) * bytes); /* rows begin anywhere in a line */
+    } plane[] = {
+        {f->t, 1},           {f->geometry, 1}, {f->normal[0], apart}, {f->normal[1], apart}, {f->normal[2], apart},
+        {job->visibility, 1}};
+    for (uint32_t y = 0; y < SQUARE_EDGE; y++)
+        for (uint32_t part = 0; part < SQUARE_EDGE / LINE; part++) {
+            const uint32_t x = part * LINE, width = f->width - x0 - x < LINE ? f->width - x0 - x : LINE;
+            if (!(hits->row[y] >> x & 0xffff))
+                continue;
+            for (uint32_t k = 0; k < sizeof plane / sizeof *plane; k++) {
+                const size_t bytes = plane[k].stride * sizeof(float);
+                const size_t first = (size_t)(y0 + y) * job->row_stride + x0 + x;
+                const char *row = (const char *)plane[k].elements + first * bytes;
+                const size_t step = bytes > LINE * sizeof(float) ? bytes : LINE * sizeof(float);
+                for (size_t i = 0; i < width * bytes; i += step)
+                    __builtin_prefetch(row + i);
+                __builtin_prefetch(row + (width - 1) * bytes); /* rows begin anywhere in a line */
+            }
         }
 }
 
 static void visit_tile(const ambient_job *job, uint32_t x, uint32_t y)
 {
     const cgt_frame *f = job->frame;
-    const uint32_t width = f->width - x < SQUARES * SQUARE_EDGE ? f->width - x : SQUARES * SQUARE_EDGE;
+    const uint32_t edge = job->squares * SQUARE_EDGE, width = f->width - x < edge ? f->width - x : edge;
     const uint32_t height = f->height - y < SQUARE_EDGE ? f->height - y : SQUARE_EDGE;
     cgt_visits_enter(job->visits);
     cgt_visits_leave(job->visits, job->ambient.visitor(job->ambient.visitor_user, x, y, width, height));
@@ -218,7 +265,8 @@ static void trace_ambient_tile(void *argument, uint32_t index, cgt_scratch *scra
 {
     const ambient_job *job = argument;
     const cgt_frame *f = job->frame;
-    const uint32_t x0 = index % job->tiles_across * SQUARES * SQUARE_EDGE;
+    const uint32_t edge = job->squares * SQUARE_EDGE, x0 = index % job->tiles_across * edge;
+    const uint32_t end = f->width - x0 < edge ? f->width : x0 + edge;
     const uint32_t y0 = f->first_row + index / job->tiles_across * SQUARE_EDGE;
     if (cgt_visits_stopped(job->visits))
         return;
@@ -227,18 +275,21 @@ static void trace_ambient_tile(void *argument, uint32_t index, cgt_scratch *scra
     b->pixels.count = 0;
     memset(b->occluded, 0, sizeof b->occluded);
     cgt_ambient_points_init(job->ambient.first, job->ambient.samples, &b->points);
-    const uint32_t all = TILE_PIXELS * job->ambient.samples, most = all < job->batch ? all : job->batch;
+    const uint32_t all = BATCH_PIXELS * job->ambient.samples, most = all < job->batch ? all : job->batch;
     for (uint32_t i = 0; i < most && !isinf(job->ambient.radius); i++)
         b->t_max[i] = job->ambient.radius;
     for (uint32_t i = 0; i < most && job->has_masks; i++)
         b->mask[i] = job->camera.mask;
-    for (uint32_t i = 0; i < TILE_PIXELS / BLOCK_PIXELS; i++) {
-        const uint32_t square = i / SQUARE_BLOCKS;
-        if (i % SQUARE_BLOCKS == 0 && x0 + square * SQUARE_EDGE < f->width)
-            prefetch_square(job, x0 + square * SQUARE_EDGE, y0);
-        const uint32_t x = x0 + square * SQUARE_EDGE + even_bits(i) * BLOCK, y = y0 + even_bits(i >> 1) * BLOCK;
-        if (x < f->width && y < f->height)
-            append_block(job, index, x, y, b);
+    prefetch_primitives(job, x0, y0);
+    for (uint32_t x = x0; x < end; x += SQUARE_EDGE) {
+        square_hits hits;
+        if (x + SQUARE_EDGE < end)
+            prefetch_primitives(job, x + SQUARE_EDGE, y0);
+        if (!find_hits(job, x, y0, &hits))
+            continue;
+        prefetch_hits(job, &hits, x, y0);
+        for (uint32_t i = 0; i < SQUARE_BLOCKS; i++)
+            append_block(job, index, &hits, x, y0, even_bits(i) * BLOCK, even_bits(i >> 1) * BLOCK, b);
     }
     trace_batch(job, index, b);
     cgt_trace_counter_add(job->counter, &b->counts);
@@ -294,6 +345,19 @@ static cgt_result prepare_job(ambient_job *job, const cgt_camera *camera, const 
     return result == CGT_OK ? cgt_prepare_camera(c, camera, f, &job->camera) : result;
 }
 
+/* Cuts the frame into tiles and returns how many: wide ones as long as there are enough for all threads, since a tile's
+ * last batch is seldom full. A caller's runner counts as 64 threads. */
+static uint32_t cut_tiles(ambient_job *job)
+{
+    const uint32_t threads = job->scene->context->threads ? job->scene->context->threads : 64;
+    const uint32_t down = (job->frame->row_count + SQUARE_EDGE - 1) / SQUARE_EDGE, width = job->frame->width;
+    for (job->squares = MOST_SQUARES;; job->squares /= 2) {
+        job->tiles_across = (width + job->squares * SQUARE_EDGE - 1) / (job->squares * SQUARE_EDGE);
+        if (job->squares == LEAST_SQUARES || job->tiles_across * (uint64_t)down >= (uint64_t)threads * TASKS_PER_THREAD)
+            return job->tiles_across * down;
+    }
+}
+
 cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
                                  const cgt_ambient_options *ambient, float *visibility,
                                  const cgt_trace_options *options)
@@ -328,8 +392,7 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
     job.has_masks = cgt_primitives_masked_out(&scene->committed_scene.prims, job.camera.mask);
     job.row_stride = frame->row_stride ? frame->row_stride : frame->width;
     job.vector_stride = frame->vector_stride ? frame->vector_stride : 1;
-    job.tiles_across = (frame->width + SQUARES * SQUARE_EDGE - 1) / (SQUARES * SQUARE_EDGE);
-    const uint32_t tiles = job.tiles_across * ((cut.row_count + SQUARE_EDGE - 1) / SQUARE_EDGE);
+    const uint32_t tiles = cut_tiles(&job);
     cgt_visits_begin(&visits);
     if (scene->in_bands) {
         job.bands = &bands;

@@ -237,10 +237,14 @@ TEST(the_mean_keeps_what_a_sphere_sees)
     s.settings.lighting.sky = 1.0f;
     s.settings.lighting.ambient = 256;
     s.settings.antialias = 4;
+    s.settings.style.layer_count = 1; /* in which there is nothing: each ray is drawn */
+    s.settings.style.layers[0] = (cgt_picture_layer){2, 0.5f};
+    set_opaque(&s, 1);
     s.ball[0][2] = s.ball[0][3] = 1.5f; /* on the floor: six pixels */
     draw(&s);
     for (uint32_t i = 0; i < PIXELS; i++)
         fine[i] = s.pixels[i].r;
+    s.settings.style.layer_count = 0;
     s.settings.antialias = 1;
     draw(&s);
     for (float y = -1.1f; y < 1.2f; y += 0.25f)
@@ -278,11 +282,15 @@ static double sky_error(stage *s, uint32_t antialias)
     return sqrt(sum / count);
 }
 
-/* The rays of a pixel are shared by those of antialiasing: with more of these its mean must not have more noise. */
-TEST(noise_falls_with_antialiasing)
+/* The rays of a pixel are shared by those of antialiasing: with more of these its mean must not have more noise; nor
+ * where a layer in which there is nothing wants each ray's. */
+static void check_noise(uint32_t layers)
 {
     static stage s;
     set_up(&s, 2, NULL);
+    set_opaque(&s, 1);
+    s.settings.style.layer_count = layers;
+    s.settings.style.layers[0] = (cgt_picture_layer){2, 0.5f};
     s.settings.lighting.light_count = 0;
     s.settings.lighting.sky = 1.0f;
     s.ball[0][2] = s.ball[0][3] = 5.0f; /* on the floor, and a small one on it */
@@ -291,6 +299,12 @@ TEST(noise_falls_with_antialiasing)
     print_message("error of the sky by antialiasing: %.5f, %.5f, %.5f\n", one, two, four);
     assert_true(two < 0.9 * one && four < 0.6 * one);
     tear_down(&s);
+}
+
+TEST(noise_falls_with_antialiasing)
+{
+    check_noise(0);
+    check_noise(1);
 }
 
 /* ---- Stability ---------------------------------------------------------------------------------------------- */
@@ -312,6 +326,58 @@ static void set_everything(stage *s)
     s->settings.lighting.lights[2].size = 1.0f;
     for (int i = 0; i < 3; i++)
         s->settings.lighting.lights[i].shadows = 1;
+}
+
+/* Where all rays of a pixel hit one ball or bond alike, the picture goes on with one for all of them. A layer in which
+ * there is nothing keeps it from that: shadow edges and the two colours of a bond must look the same. */
+TEST(whole_pixels_look_as_their_rays_do)
+{
+    static const float half_color[6] = {0.9f, 0.1f, 0.1f, 0.1f, 0.1f, 0.9f}, ends[6] = {-6, 6, 2, 6, 6.7f, 2};
+    static const cgt_look bond = {.colors = half_color, .halves = true};
+    static stage s;
+    static cgt_linear_pixel whole[PIXELS];
+    const cgt_capsules bonds = {
+        .count = 1, .vertices = cgt_floats(ends, 0), .vertex_count = 2, .radius = 1.0f, .mask = 1};
+    cgt_camera camera;
+    uint32_t edges = 0;
+    set_camera(&camera);
+    for (uint32_t ambient = 0; ambient <= 256; ambient += 256)
+        for (uint32_t antialias = 2; antialias <= 4; antialias += 2) {
+            set_up(&s, 2, NULL);
+            set_everything(&s);
+            set_opaque(&s, 1);
+            assert_int_equal(cgt_scene_set_capsules(s.scene, NULL, &bonds), CGT_OK);
+            s.settings.antialias = antialias;
+            s.settings.lighting.ambient = ambient;
+            s.settings.lighting.light_count = ambient ? 0 : 2;      /* without noise, or nothing else */
+            s.settings.lighting.lights[0].light.position[0] = 0.5f; /* so that a shadow lies beside the small ball */
+            s.settings.style.outline = 0.0f;
+            s.ball[0][3] = 5.0f;
+            memcpy(s.ball[1], (float[]){1.5f, 0.5f, 10.5f, 1.0f}, sizeof s.ball[1]);
+            const cgt_image image = image_of(&s);
+            const cgt_look of[3] = {looks[BALL], looks[FLOOR], bond};
+            double sum = 0.0;
+            for (uint32_t layers = 0; layers < 2; layers++) {
+                s.settings.style.layer_count = layers;
+                s.settings.style.layers[0] = (cgt_picture_layer){2, 0.5f};
+                assert_int_equal(cgt_scene_commit(s.scene), CGT_OK);
+                cgt_picture_release(s.picture);
+                assert_int_equal(cgt_picture_create(s.context, &s.settings, &s.picture), CGT_OK);
+                assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, of, 3, &image, NULL), CGT_OK);
+                if (!layers)
+                    memcpy(whole, s.pixels, sizeof whole);
+            }
+            for (uint32_t i = 0; i < PIXELS; i++) {
+                const double error = (double)fabsf(whole[i].r - s.pixels[i].r) + fabsf(whole[i].b - s.pixels[i].b);
+                assert_true(error < (ambient ? 0.04 : 0.016));
+                assert_true(fabsf(whole[i].depth - s.pixels[i].depth) < 1e-5f && whole[i].a == s.pixels[i].a);
+                sum += error;
+                edges += !ambient && fabsf(whole[i].r - whole[i ? i - 1 : 0].r) > 0.1f;
+            }
+            assert_true(sum / PIXELS < 0.001);
+            tear_down(&s);
+        }
+    assert_true(edges > 100);
 }
 
 TEST(threads_and_variants_change_no_byte)
@@ -494,6 +560,40 @@ TEST(steps_end_at_the_whole_picture)
     }
 }
 
+/* A large picture is drawn by bands of rows in the same memory, and by steps at once: the bytes are the same, with
+ * whole pixels, layers and all the planes that there are. */
+TEST(bands_have_the_bytes_of_steps)
+{
+    enum { WIDTH = 1000, HEIGHT = 210, BYTES = 3 * WIDTH * HEIGHT };
+    static uint8_t drawn[BYTES], stepped[BYTES];
+    static stage s;
+    cgt_camera camera;
+    set_camera(&camera);
+    for (uint32_t layers = 0; layers < 2; layers++) {
+        const cgt_image image = {.bytes = drawn}, other = {.bytes = stepped};
+        set_up(&s, 2, NULL);
+        set_everything(&s);
+        set_opaque(&s, 1);
+        s.settings.width = WIDTH;
+        s.settings.height = HEIGHT;
+        s.settings.antialias = 4; /* 130 MB of planes */
+        s.settings.style.outline = layers ? 3.0f : 0.0f;
+        s.settings.style.layer_count = layers;
+        s.settings.style.layers[0] = (cgt_picture_layer){2, 0.5f};
+        s.ball[0][3] = 6.0f;
+        assert_int_equal(cgt_scene_commit(s.scene), CGT_OK);
+        assert_int_equal(cgt_picture_create(s.context, &s.settings, &s.picture), CGT_OK);
+        assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, looks, 2, &image, NULL), CGT_OK);
+        const uint64_t hits = cgt_picture_get_hits(s.picture);
+        assert_int_equal(cgt_picture_begin(s.picture, s.scene, &camera, looks, 2, NULL), CGT_OK);
+        assert_int_equal(cgt_picture_step(s.picture, UINT32_MAX, NULL), CGT_OK);
+        assert_int_equal(cgt_picture_read(s.picture, &other), CGT_OK);
+        assert_memory_equal(drawn, stepped, BYTES);
+        assert_int_equal(hits, cgt_picture_get_hits(s.picture));
+        tear_down(&s);
+    }
+}
+
 /* The error of a picture in the middle of its steps falls as samples grow: it is not worse than that of fewer. */
 /* Rows alone have the bytes of the whole: those of averages, outlines and soft lights, which look at rows around them,
  * too. Other pixels stay. */
@@ -589,7 +689,9 @@ TEST(images_of_all_kinds_agree)
         s.settings.style.background[2] = 0.3f;
         draw(&s);
         memset(rgba, 77, sizeof rgba);
-        assert_int_equal(cgt_picture_read(s.picture, &image), CGT_OK);
+        cgt_camera camera;
+        set_camera(&camera);
+        assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, looks, 4, &image, NULL), CGT_OK);
         for (int i = 0; i < PIXELS; i++) {
             const uint8_t *const p = rgba + i / EDGE * ROW + i % EDGE * 4;
             assert_memory_equal(p, s.rgb + 3 * i, 3);
