@@ -36,8 +36,9 @@
 #   release     the full length of the tests that run again with clusters in all triangles (*_clusters): a third of it;
 #               -O3 for the modules in C++ (-O0)
 #   sanitize    these tests; pointer-overflow in kernels, which takes half the compiler's time (addresses that are used are
-#               the address sanitizer's); test_whitted_reciprocity and reader_messages (CGT_TEST_LONG)
-#   tsan        tests with the label `workers`: test_all_hits, test_cell_kd, test_float_environment, test_stacks,
+#               the address sanitizer's); tests of numbers in kernels that are built apart and others run, and other long
+#               ones (CGT_TEST_LONG); -O1 for the modules in C++ (-O0)
+#   tsan        tests with the label `workers`: fuzz_hits, test_cell_kd, test_float_environment, test_stacks,
 #               test_structure_contracts
 #   aarch64     -O3 (-O1), clusters, and tests without the labels isa and platform
 #   ppc64       -O3 (-O1), and tests without the labels endian and platform
@@ -121,6 +122,7 @@ settings_of() {
         else
             settings+=(-DCGT_SANITIZE_ALL=OFF)
             clusters=OFF long=OFF
+            settings+=("-DCMAKE_CXX_FLAGS_DEBUG=-O0 -g1")
         fi ;;
     clang) gltf=OFF ;; # what assimp loses of glTF is refused
     native) ;;

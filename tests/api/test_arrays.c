@@ -203,7 +203,7 @@ TEST(spheres_of_every_form)
 {
     static const double none[3] = {0};
     test_random r = random_make(1);
-    for (uint32_t round = 0; round < 6; round++) {
+    for (uint32_t round = 0, rounds = test_between(2, 6); round < rounds; round++) {
         cgt_context *context = context_make(1 + round % 3, NULL);
         const double *origin = round % 2 ? far_origin : none;
         sphere_arrays *s = make_spheres(&r, origin);
@@ -308,7 +308,7 @@ static cgt_scene *scene_of_triangles(cgt_context *context, const cgt_scene_optio
 /* A mesh large enough for clusters and a small one. */
 TEST(triangles_of_every_form)
 {
-    for (uint32_t round = 0; round < 8; round++) {
+    for (uint32_t round = 0, rounds = test_between(2, 8); round < rounds; round++) {
         cgt_context *context = context_make(1 + round % 3, NULL);
         const cgt_scene_options options = round / 2 ? structure_in_turn(round / 2) : (cgt_scene_options){0};
         const uint32_t detail = round % 2 ? 120 : 20;

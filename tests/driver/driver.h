@@ -54,6 +54,7 @@
     X(INVALID, "invalid")                                                                                              \
     X(BVH, "through a BVH")                                                                                            \
     X(PACKETS, "packets")                                                                                              \
+    X(SPLIT, "packets split")                                                                                          \
     X(TESTS, "tests")                                                                                                  \
     X(DOUBLE, "decided in double")                                                                                     \
     X(EXACT, "decided exactly")                                                                                        \

@@ -77,6 +77,7 @@ const driver_profile driver_profiles[] = {
                {COUNT_SEEN, COUNT_PIXELS, 0.2},
                {COUNT_OCCLUDED, COUNT_SHADOWS, 0.2},
                {COUNT_PACKETS, COUNT_TRACED, 0.2},
+               {COUNT_SPLIT, COUNT_SCENES, 0.5},
                {COUNT_DOUBLE, COUNT_TRACED, 0.5},
                {COUNT_UNBOUNDED, COUNT_SCENES, 10},
                {COUNT_UNBOUNDED, COUNT_UNBOUNDED_WRONG, 5}}},

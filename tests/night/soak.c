@@ -20,7 +20,9 @@
 #include "support/frame_hash.h"
 #include "support/random.h"
 
-enum { CYCLE = 24, STEPS = 3, MOST = 4000, RAYS = 3000, WIDTH = 160, HEIGHT = 96, PIXELS = WIDTH * HEIGHT };
+#define CYCLE (CGT_SANITIZED ? 6 : 24)
+
+enum { STEPS = 3, MOST = 4000, RAYS = 3000, WIDTH = 160, HEIGHT = 96, PIXELS = WIDTH * HEIGHT };
 
 #define KEPT_BYTES (UINT64_C(4) << 20) /* by which the process may grow: an allocator keeps some */
 

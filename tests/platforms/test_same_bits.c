@@ -424,20 +424,29 @@ static void add_updated(cgt_scene *scene, const contents *c)
     assert_int_equal(cgt_scene_set_capsules(scene, &(uint32_t){2}, c->capsules), CGT_OK);
 }
 
+static const cgt_structure structures[] = {CGT_STRUCTURE_AUTO,       CGT_STRUCTURE_BVH, CGT_STRUCTURE_LOOSE_GRID,
+                                           CGT_STRUCTURE_QUEUE_GRID, CGT_STRUCTURE_KD,  CGT_STRUCTURE_KD_ROPES,
+                                           CGT_STRUCTURE_BIH};
+
+/* Emulators are slow, and the suite compares structures on its own: two are enough there, and where they compute in
+ * software AUTO, which has a grid and a BVH. Capsules have one. */
+static size_t structures_asked(const contents *c)
+{
+    if (c->capsules)
+        return 1;
+    return !test_samples() ? TEST_COUNT(structures) : test_scaled(100) > 1 ? 2 : 1;
+}
+
 /* Hits are the same through each structure: all of them are compared with the same lines. */
 static void trace_scene(cgt_context *context, const char *name, const contents *c)
 {
-    static const cgt_structure structures[] = {CGT_STRUCTURE_AUTO,       CGT_STRUCTURE_BVH, CGT_STRUCTURE_LOOSE_GRID,
-                                               CGT_STRUCTURE_QUEUE_GRID, CGT_STRUCTURE_KD,  CGT_STRUCTURE_KD_ROPES,
-                                               CGT_STRUCTURE_BIH};
     const cgt_camera camera = {.eye = {0.5f, 0.75f, 3}, .fov = 50};
     cgt_scene *scene;
     scene_name = name;
     assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
     has_capsules = c->capsules;
     (strcmp(name, "updated") ? add_contents : add_updated)(scene, c);
-    /* emulators are slow, and the suite compares structures on its own: two are enough there; capsules have one */
-    const size_t count = c->capsules ? 1 : test_samples() ? 2 : TEST_COUNT(structures);
+    const size_t count = structures_asked(c);
     for (size_t k = 0; k < count; k++) {
         cgt_scene_options options;
         cgt_scene_statistics statistics;

@@ -15,7 +15,8 @@ trap 'rm -rf "$work"' EXIT
 unset CGT_PREFIX CGT_LIBRARY PYTHONPATH
 export CC="$cc" PYTHONDONTWRITEBYTECODE=1 CGT_CMAKE="-DCGT_ONLY_VARIANTS=sse -DCMAKE_C_FLAGS_RELEASE=-O0" CCACHE_BASEDIR="$work" CCACHE_NOHASHDIR=1
 
-mkdir "$work/tree"
+mkdir "$work/temporary" "$work/tree"
+export TMPDIR="$work/temporary" # builds below CCACHE_BASEDIR: compiler results are found again
 for name in CMakeLists.txt LICENSE pyproject.toml cmake include simd src backends figure picture mpi programs python; do
     cp -r "$source/$name" "$work/tree/"
 done

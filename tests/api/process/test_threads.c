@@ -20,6 +20,7 @@
 #include <cgt/research.h>
 
 #include "core/context.h"
+#include "core/sanitized.h"
 
 /* ---- the system's threads ---- */
 
@@ -166,7 +167,7 @@ TEST(one_thread_starts_none)
     const unsigned before = count_settled_threads();
     if (!before)
         skip();
-    committed_scene *w = make_world(1, 20000);
+    committed_scene *w = make_world(1, 12000);
     watch seen = {0};
     cgt_context *context = context_make(1, NULL);
     assert_int_equal(cgt_context_get_threads(context), 1);
@@ -285,7 +286,7 @@ static void run_even_then_odd(void *user, cgt_task *task, void *argument, uint32
 TEST(a_runner_does_all_the_work)
 {
     const unsigned before = count_settled_threads();
-    committed_scene *w = make_world(3, 30000);
+    committed_scene *w = make_world(3, 12000);
     runner r = {.caller = pthread_self()};
     watch seen = {0};
     cgt_context_options options;
@@ -374,7 +375,7 @@ TEST(callers_have_tasks_of_their_own)
 
 /* ---- many callers ---- */
 
-#define CALLERS 6
+#define CALLERS (CGT_SANITIZED ? 3 : 6)
 
 typedef struct caller {
     pthread_t thread;

@@ -13,8 +13,26 @@ struct driver_view *driver_view_make(void) { return malloc(sizeof(driver_view));
 
 /* ---- the camera ---- */
 
+/* Along an axis or a diagonal, from outside or away from it, where the scene is behind. */
+static void look_along(judge_scene *s, cgt_camera *c)
+{
+    test_random *r = &s->random;
+    const float far = s->scale * (random_below(r, 4) ? 3 : -3);
+    float d[3] = {0, 0, 0};
+    while (d[0] == 0 && d[1] == 0 && d[2] == 0)
+        for (int a = 0; a < 3; a++)
+            d[a] = (float)random_below(r, 3) - 1;
+    for (int a = 0; a < 3; a++) {
+        c->target[a] = s->middle[a];
+        c->eye[a] = s->middle[a] - far * d[a];
+        c->target[a] += far < 0 ? -2 * far * d[a] : 0;
+        c->up[a] = d[(a + 1) % 3] != 0 && d[a] == 0 ? 1 : 0.25f * (float)a;
+    }
+}
+
 static void make_camera(driver_run *run, driver_view *w)
 {
+    static const float fov[] = {1e-4f, 0.1f, 90, 150, 175, 179, 179.9f, 179.999f};
     judge_scene *s = &run->scene;
     test_random *r = &s->random;
     const uint32_t how = random_below(r, 6);
@@ -29,7 +47,9 @@ static void make_camera(driver_run *run, driver_view *w)
         line_place_beside(s, c->target, c->eye);
     if (random_below(r, 3) == 0)
         random_direction(r, c->up);
-    c->fov = random_float(r, 5, 130);
+    if (random_below(r, 6) == 0)
+        look_along(s, c);
+    c->fov = random_below(r, 4) ? random_float(r, 5, 130) : fov[random_below(r, TEST_COUNT(fov))];
     c->projection = random_below(r, 3) ? CGT_PROJECTION_PERSPECTIVE : CGT_PROJECTION_ORTHOGRAPHIC;
     c->height = s->scale * random_float(r, 0.1f, 4);
     c->mask = random_below(r, 5) ? 0 : random_below(r, 16);
@@ -112,10 +132,12 @@ static void judge_pixel(driver_run *run, driver_view *w, uint32_t i, bool fast)
 static bool trace_rows(driver_run *run, driver_view *w, cgt_frame frame, cgt_precision precision)
 {
     cgt_trace_statistics statistics = {0};
+    cgt_research_trace_statistics research = {0};
     test_trace_options o = driver_options(run, precision);
     o.packet = o.cull ? 4u << random_below(&run->scene.random, 3) : 0;
     o.tile = o.packet == 4 ? CGT_TILE_SHAPE_STRIP : CGT_TILE_SHAPE_AUTO;
     o.statistics = &statistics;
+    o.research_statistics = &research;
     const uint32_t cut = random_below(&run->scene.random, w->height + 1);
     memset(&w->got, 0x77, sizeof w->got);
     if (cut && cut < w->height) {
@@ -134,6 +156,7 @@ static bool trace_rows(driver_run *run, driver_view *w, cgt_frame frame, cgt_pre
                          "cgt_trace_camera"))
         return false;
     driver_count(run, &statistics);
+    run->count[COUNT_SPLIT] += research.split_packets;
     return true;
 }
 
