@@ -650,8 +650,8 @@ TEST(options_change_what_is_shown)
     cgt_figure_release(figure);
 }
 
-/* Materials that no option has any more, while light still bounces, in a frame of more spheres than had one: that such a
- * material is asked for, memory checkers alone see. */
+/* Materials that no option has any more, while light still bounces, in a frame of more spheres than had one: that such
+ * a material is asked for, memory checkers alone see. */
 TEST(materials_go_with_their_option)
 {
     cgt_figure *const figure = make_figure(), *const fresh = make_figure();
