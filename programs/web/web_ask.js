@@ -71,7 +71,8 @@ function createAsk({send, put, valuesOf, hasOption, openPanel}) {
     // ---- Selections -------------------------------------------------------------------------------------------------
 
     const filter = $('filter'), actions = {
-        hide: (text) => ['hide', text], isolate: (text) => ['show', text],
+        hide: (text) => ['hide', /^[\w,]+$/.test(text) ? `(${text})` : text], // else 2 is a type
+        isolate: (text) => ['show', text],
         fade: (text) => ['opacity', `not (${text})=${faded}`], label: (text) => ['label', text]};
 
     function select() {

@@ -131,8 +131,8 @@ function createFiles({unpack, openRun, openSettings, say, told}) {
                 openRun({name: found.run[0].name, count: found.run.length, files, run: found.run.map(nameOf),
                          topology: nameOf(found.topology), mesh: nameOf(found.mesh),
                          doubt: files.map((f) => f.doubt).find((doubt) => doubt) || '',
-                         given: {names: found.run.map((f) => f.given), topology: found.topology ? found.topology.given : '',
-                                 mesh: found.mesh ? found.mesh.given : ''}});
+                         given: {names: found.run.map((f) => f.given), topology: (found.topology || {given: ''}).given,
+                                 mesh: (found.mesh || {given: ''}).given}});
             }
             if (found.settings)
                 openSettings(found.settings.name, asked);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The libcgt authors
 // SPDX-License-Identifier: MIT
 //
-// Movies and archives, written by the engine's worker: WebM (Matroska, RFC 9559) of what the browser's encoder gives, or
-// a series of PNG files in a zip file without compression, since they have their own.
+// Movies and archives, written by the engine's worker: WebM (Matroska, RFC 9559) of what the browser's encoder gives,
+// or a series of PNG files in a zip file without compression, since they have their own.
 /* exported makePictures */
 
 // The archive of [{name, bytes}]. Names are of ASCII.
@@ -27,15 +27,16 @@ function writeZip(files) {
         for (const byte of bytes)
             sum = sum >>> 8 ^ sums[(sum ^ byte) & 255];
         const letters = new TextEncoder().encode(name), size = [bytes.length, 4];
-        const about = [[20, 2], [0, 2], [0, 2], [0, 2], [day, 2], [~sum >>> 0, 4], size, size, [letters.length, 2], [0, 2]];
+        const about = [[20, 2], [0, 2], [0, 2], [0, 2], [day, 2], [~sum >>> 0, 4], size, size, [letters.length, 2],
+                       [0, 2]];
         directory.push(words([0x02014b50, 4], [20, 2], ...about, [0, 2], [0, 2], [0, 2], [0, 4], [at, 4]), letters);
         at += add(parts, words([0x04034b50, 4], ...about)) + add(parts, letters) + add(parts, bytes);
     }
     const length = directory.reduce((sum, part) => sum + part.length, 0), count = [files.length, 2];
     if (files.length > 65535 || at + length >= 2 ** 32)
         throw new Error('the pictures are too many, or too large, for one zip file');
-    return new Blob([...parts, ...directory, words([0x06054b50, 4], [0, 2], [0, 2], count, count, [length, 4], [at, 4], [0, 2])],
-                    {type: 'application/zip'});
+    const end = words([0x06054b50, 4], [0, 2], [0, 2], count, count, [length, 4], [at, 4], [0, 2]);
+    return new Blob([...parts, ...directory, end], {type: 'application/zip'});
 }
 
 // A movie of frames [{bytes, isKey}], so many a second.
@@ -80,8 +81,8 @@ function writeWebm(frames, {codec, width, height, rate}) {
             ...clusters)], {type: 'video/webm'});
 }
 
-// The browser's encoder for pictures of a size, or null where it has none that is known here: add(pixels, k) gives it the
-// pixels of picture k, end() makes the movie.
+// The browser's encoder for pictures of a size, or null where it has none that is known here: add(pixels, k) gives it
+// the pixels of picture k, end() makes the movie.
 async function createEncoder(width, height, rate) {
     const codecs = [['vp09.00.51.08', 'V_VP9'], ['vp8', 'V_VP8']], frames = [], apart = 60; // from key to key
     const bitrate = Math.min(40e6, Math.round(6 * width * height * Math.sqrt(rate / 30)));
@@ -162,7 +163,8 @@ async function makePictures(cgt, m, {tell, message, isCancelled}) {
         }
         if (isOne)
             return {name: 'picture.png', blob: new Blob([files[0].bytes], {type: 'image/png'})};
-        return encoder ? {name: 'movie.webm', blob: await encoder.end()} : {name: 'pictures.zip', blob: writeZip(files)};
+        return encoder ? {name: 'movie.webm', blob: await encoder.end()}
+            : {name: 'pictures.zip', blob: writeZip(files)};
     } finally {
         if (encoder)
             encoder.drop();

@@ -31,8 +31,8 @@ EMSCRIPTEN_KEEPALIVE const char *web_settings(void)
     return web.told;
 }
 
-/* Takes the options of a settings file, but for the size, in place of all that are set. What is refused changes nothing.
- * Returns 0, or -1; the message names options that are not the page's, "": none. */
+/* Takes the options of a settings file, but for the size, in place of all that are set. What is refused changes
+ * nothing. Returns 0, or -1; the message names options that are not the page's, "": none. */
 EMSCRIPTEN_KEEPALIVE int web_load(const char *path)
 {
     char left_out[256], size[32], why[sizeof web.message];

@@ -15,7 +15,8 @@ function createOut({send, say, openSettings, page}) {
     const pathOf = (name) => name.startsWith('-') ? './' + name : name;
 
     function commandLine() {
-        const words = ['cgt-render', ...rows().map(([name, value]) => `--${name}` + (value === undefined ? '' : `=${value}`)),
+        const options = rows().map(([name, value]) => `--${name}` + (value === undefined ? '' : `=${value}`));
+        const words = ['cgt-render', ...options,
             `--first=${frame}`, `--last=${frame}`, ...(run.topology ? [`--topology=${pathOf(run.topology)}`] : []),
             ...(run.mesh ? [`--mesh=${pathOf(run.mesh)}`] : []), '-o', 'picture.png', ...run.names.map(pathOf)];
         return words.map(quote).join(' ');
@@ -27,11 +28,13 @@ function createOut({send, say, openSettings, page}) {
             options.set(name, [...(options.get(name) || []), value === undefined ? 'True' : text(value)]);
         const keywords = [...options].map(([name, values]) =>
             `    ${name.replace(/-/g, '_')}=${values.length > 1 ? `[${values.join(', ')}]` : values[0]},\n`).join('');
-        const paths = run.names.length > 1 ? `cgt.sort_series([${run.names.map(text).join(', ')}])` : text(run.names[0]);
+        const [name, ...more] = run.names.map(text);
+        const paths = more.length ? `cgt.sort_series([${[name, ...more].join(', ')}])` : name;
         const topology = run.topology ? `, topology=${text(run.topology)}` : '';
         const spheres = run.kind === 'spheres' ? ', all_bonds=True, leave_out_sites=True' : '';
         const origin = run.origin ? `, origin=(${run.origin})` : '';
-        return `import cgt\n\nrun = cgt.read(${paths}${topology}${spheres}${origin})\nfigure = cgt.Figure(\n${keywords})\n` +
+        return `import cgt\n\nrun = cgt.read(${paths}${topology}${spheres}${origin})\n` +
+            `figure = cgt.Figure(\n${keywords})\n` +
             (run.mesh ? `figure.set_mesh(cgt.read(${text(run.mesh)})[0])\n` : '') +
             `figure.survey(run)\nfor frame in run[${Math.max(0, frame - run.lead)}:${frame + 1}]:\n` +
             `    figure.show(frame)\nfigure.save("picture.png")\n`;
@@ -44,7 +47,8 @@ function createOut({send, say, openSettings, page}) {
         };
         from.select();
         if (navigator.clipboard)
-            navigator.clipboard.writeText(from.value).then(done, () => say('this browser does not let the page copy', true));
+            navigator.clipboard.writeText(from.value)
+                .then(done, () => say('this browser does not let the page copy', true));
         else if (document.execCommand('copy'))
             done();
     }

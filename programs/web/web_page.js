@@ -714,8 +714,8 @@
         // The same by keys, where the picture has the focus.
         canvas.addEventListener('keydown', (e) => {
             const step = 20 * devicePixelRatio, middle = {x: canvas.width / 2, y: canvas.height / 2};
-            const [x, y] = {ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step]}[e.key]
-                || [0, 0];
+            const steps = {ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step]};
+            const [x, y] = steps[e.key] || [0, 0];
             const factor = {'+': 0.8, '=': 0.8, '-': 1.25}[e.key];
             if (e.ctrlKey || e.metaKey || e.altKey)
                 return;

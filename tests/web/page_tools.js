@@ -128,5 +128,5 @@ const contrast = (page) => page.run(`(() => {
 })()`);
 
 
-module.exports = {test, count, read, expect, settle, camera, pixels, compare, mouse, drag, style, drop, key, entryOf, edit,
-    contrast, width, height, data};
+module.exports = {test, count, read, expect, settle, camera, pixels, compare, mouse, drag, style, drop, key, entryOf,
+    edit, contrast, width, height, data};

@@ -191,6 +191,11 @@ async function testSelections(browser, address, out) {
             await push('show-all');
             assert(Buffer.compare(all, await pixels(page)) === 0, `${id} is not taken back`);
         }
+        await type('type'); // a formula, and no name of a type
+        await push('isolate');
+        await compare(page, file, 'plain');
+        await push('show-all');
+        await type('element == H');
         await push('hide');
         await page.run(`cgtPage.left = -1, document.activeElement.blur()`);
         await key(page, 'u', 85); // one change, which is undone

@@ -136,6 +136,16 @@ async function testSeveral(page) {
             fs.unlinkSync(file);
         }
     });
+    await test('names without an ending, and those of folders', async () => {
+        const poscar = 'C\n1\n5 0 0\n0 5 0\n0 0 5\nC O\n1 1\nDirect\n0 0 0\n0.5 0.5 0.5\n';
+        for (const [name, text, sphere] of [['POSCAR', poscar, /O/], ['dev', read('pour2k.lammpstrj'), /type/],
+                                            ['-', read('pour2k.lammpstrj'), /type/], ['a %s \u00e4.xyz', atom(3), /C/]]) {
+            await drop(page, name, text);
+            assert.strictEqual(await page.run('cgtPage.error'), '', name);
+            assert.match(await page.run(`cgtPage.ask('describe', {element: ${name === 'POSCAR' ? 1 : 0}}, 'described')
+                .then((m) => m.text.split('\\n')[0])`), sphere);
+        }
+    });
     await test('several files that do not go together are refused', async () => {
         const psf = bytes(of('topology_psf/all.psf'));
         for (const [files, says] of [

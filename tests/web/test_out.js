@@ -89,7 +89,8 @@ async function testLines(page, folder) {
         for (const [name, bytes] of files)
             fs.writeFileSync(path.join(here, name), bytes);
         assert(command.startsWith('cgt-render '));
-        execFileSync('sh', ['-c', `'${render}' -q --no-metadata ${command.slice(11)}`], {cwd: here, stdio: ['ignore', 'pipe', 'pipe']});
+        execFileSync('sh', ['-c', `'${render}' -q --no-metadata ${command.slice(11)}`],
+            {cwd: here, stdio: ['ignore', 'pipe', 'pipe']});
         same(decode(fs.readFileSync(path.join(here, 'picture.png'))).bytes, await pixels(page), command);
         // keywords and values are those of the command line; the package itself is tested elsewhere
         const told = JSON.parse(execFileSync('python3', ['-c', 'import ast, json, sys\n' +
