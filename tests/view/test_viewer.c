@@ -308,7 +308,6 @@ TEST(bonds_and_clicks)
     assert_int_equal(fclose(file), 0);
     snprintf(path, sizeof path, "two.xyz");
     viewer *const v = open_viewer(16);
-    snprintf(path, sizeof path, "run.lammpstrj");
     settings = "ambient = 16\n";
     settle(v);
     float at[3][2], middle[2];
@@ -336,6 +335,7 @@ TEST(bonds_and_clicks)
     assert_int_equal(v->picks, 2);
     assert_int_equal(v->pick[1].element, 2);
     viewer_free(v);
+    snprintf(path, sizeof path, "run.lammpstrj");
 }
 
 /* A sphere that is hidden is not hit; all are back with a. */
