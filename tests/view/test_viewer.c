@@ -326,7 +326,8 @@ TEST(bonds_and_clicks)
     const uint32_t count = viewer_pick_lines(v, lines, 32);
     assert_string_equal(lines[count - 2], "a bond of these two");
     assert_string_equal(lines[count - 1], "distance  1.5");
-    assert_int_equal(viewer_unset(v, "bonds"), 0); /* without a distance they are guessed, which needs another reading */
+    /* without a distance they are guessed, which needs another reading */
+    assert_int_equal(viewer_unset(v, "bonds"), 0);
     assert_int_equal(viewer_set(v, "bonds", NULL), 0);
     settle(v);
     click(v, at[2][0], at[2][1]);
