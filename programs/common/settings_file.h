@@ -20,14 +20,14 @@ typedef int settings_taker(void *user, const char *name, const char *value, char
 /* Hands over a file's options in their order. Returns 0, or -1 with a sentence that names file and line. */
 int settings_read(const char *path, settings_taker *take, void *user, char *error, size_t error_size);
 
-/* Whether a value can be one of a row, whose place is in the struct `options`, which gets it: what needs several options
- * is left to others. Returns 0, or -1 with a sentence that names the option. */
+/* Whether a value can be one of a row, whose place is in the struct `options`, which gets it: what needs several
+ * options is left to others. Returns 0, or -1 with a sentence that names the option. */
 int settings_check(const option_row *row, const char *value, void *options, char *error, size_t error_size);
 
 /* The options of a figure in a file, whose values are checked one by one, as lines for cgt_figure_set_lines, which the
  * caller frees. NULL with a sentence that names file and line.
  *   without_size   1: without the size, which a window or a page has of its own
- *   left_out       gets the names of the others, which are of files or of a program, with ", " between them; "": none */
+ *   left_out       gets the names of the others, which are of files or a program, with ", " between them; "": none */
 char *settings_read_figure(const char *path, int without_size, char *left_out, size_t left_out_size, char *error,
                            size_t error_size);
 

@@ -238,10 +238,13 @@ static char *column_names(const viewer *v)
 void viewer_publish(viewer *v)
 {
     cgt_figure_option o;
-    char *const columns = v->shown ? column_names(v) : NULL;
+    char *values[OPTIONS_MOST], *const columns = v->shown ? column_names(v) : NULL;
+    uint32_t count = 0;
+    for (; count < OPTIONS_MOST && cgt_figure_get_option(count, &o); count++)
+        values[count] = view_draw_get(v->draw, cgt_figure_get, o.name);
     pthread_mutex_lock(&v->lock);
-    for (uint32_t i = 0; i < OPTIONS_MOST && cgt_figure_get_option(i, &o); i++)
-        take_text(&v->option[i].values, view_draw_get(v->draw, cgt_figure_get, o.name));
+    for (uint32_t i = 0; i < count; i++)
+        take_text(&v->option[i].values, values[i]);
     take_text(&v->columns, columns);
     v->options_version++;
     pthread_mutex_unlock(&v->lock);

@@ -200,7 +200,7 @@ static void expect(const char *name, const char *values)
 
 TEST(refusals_undo_and_lists)
 {
-    char *values, *sentence;
+    char *values = NULL, *sentence = NULL;
     open_panel();
     find("radius-scale");
     type("much");

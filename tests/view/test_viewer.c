@@ -308,7 +308,6 @@ TEST(bonds_and_clicks)
     assert_int_equal(fclose(file), 0);
     snprintf(path, sizeof path, "two.xyz");
     viewer *const v = open_viewer(16);
-    snprintf(path, sizeof path, "run.lammpstrj");
     settings = "ambient = 16\n";
     settle(v);
     float at[3][2], middle[2];
@@ -327,7 +326,8 @@ TEST(bonds_and_clicks)
     const uint32_t count = viewer_pick_lines(v, lines, 32);
     assert_string_equal(lines[count - 2], "a bond of these two");
     assert_string_equal(lines[count - 1], "distance  1.5");
-    assert_int_equal(viewer_unset(v, "bonds"), 0); /* without a distance they are guessed, which needs another reading */
+    /* without a distance they are guessed, which needs another reading */
+    assert_int_equal(viewer_unset(v, "bonds"), 0);
     assert_int_equal(viewer_set(v, "bonds", NULL), 0);
     settle(v);
     click(v, at[2][0], at[2][1]);
@@ -336,6 +336,7 @@ TEST(bonds_and_clicks)
     assert_int_equal(v->picks, 2);
     assert_int_equal(v->pick[1].element, 2);
     viewer_free(v);
+    snprintf(path, sizeof path, "run.lammpstrj");
 }
 
 /* A sphere that is hidden is not hit; all are back with a. */

@@ -53,9 +53,12 @@ static int run_dialog(void *user)
     FILE *const messages = system_temporary();
     char reason[200];
     int code = -1;
-    if (!messages || start(w, messages)) {
+    SDL_LockMutex(w->lock);
+    const int is_late = w->dialog_ends, wrong = !is_late && (!messages || start(w, messages));
+    SDL_UnlockMutex(w->lock);
+    if (wrong) {
         program_error("there is no zenity or kdialog for a dialog: drop a file on the window");
-    } else {
+    } else if (!is_late) {
         process_close_pipe(&w->dialog);
         process_has_ended(&w->dialog, 1, &code, reason, sizeof reason);
         if (code == 0)
@@ -82,12 +85,16 @@ void view_dialog_open(view_window *w)
         SDL_WaitThread(w->dialog_thread, NULL); /* the one before has ended */
     w->dialog.process = -1;
     w->dialog_thread = SDL_CreateThread(run_dialog, "dialog", w);
-    w->dialog_is_open = w->dialog_thread != NULL;
+    if (!w->dialog_thread) {
+        w->dialog_is_open = 0;
+        program_error("cannot start a thread: %s", SDL_GetError());
+    }
 }
 
 void view_dialog_end(view_window *w)
 {
     SDL_LockMutex(w->lock);
+    w->dialog_ends = 1;
     if (w->dialog.process > 0)
         process_kill(&w->dialog);
     SDL_UnlockMutex(w->lock);
@@ -101,9 +108,12 @@ void view_dialog_drop(view_window *w, const SDL_Event *e)
 {
     if (e->type == SDL_DROPFILE && e->drop.file) {
         const size_t before = w->dropped ? strlen(w->dropped) : 0, more = strlen(e->drop.file);
-        char *const paths = strchr(e->drop.file, '\n') ? NULL : realloc(w->dropped, before + more + 2);
+        const int is_line = !strchr(e->drop.file, '\n');
+        char *const paths = is_line ? realloc(w->dropped, before + more + 2) : NULL;
         if (paths)
             snprintf(paths + before, more + 2, "%s\n", e->drop.file);
+        else
+            program_error(is_line ? "out of memory" : "a name with a line feed cannot be opened");
         w->dropped = paths ? paths : w->dropped;
     }
     if (e->type == SDL_DROPCOMPLETE && w->dropped) {

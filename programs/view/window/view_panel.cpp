@@ -576,7 +576,7 @@ void set_colors(ImGuiStyle &style)
         ImGuiCol which;
         float r, g, b;
     } colors[] = {{ImGuiCol_WindowBg, 0.11f, 0.12f, 0.13f},      {ImGuiCol_ChildBg, 0.11f, 0.12f, 0.13f},
-                  {ImGuiCol_PopupBg, 0.09f, 0.10f, 0.11f},       {ImGuiCol_Border, 0.42f, 0.44f, 0.46f},
+                  {ImGuiCol_PopupBg, 0.09f, 0.10f, 0.11f},       {ImGuiCol_Border, 0.45f, 0.47f, 0.49f},
                   {ImGuiCol_FrameBg, 0.20f, 0.21f, 0.23f},       {ImGuiCol_FrameBgHovered, 0.25f, 0.27f, 0.30f},
                   {ImGuiCol_FrameBgActive, 0.25f, 0.27f, 0.30f}, {ImGuiCol_Button, 0.17f, 0.31f, 0.44f},
                   {ImGuiCol_ButtonHovered, 0.20f, 0.37f, 0.53f}, {ImGuiCol_ButtonActive, 0.20f, 0.37f, 0.53f},
@@ -601,6 +601,7 @@ void set_scale(view_panel &p, float scale)
     ImGui::GetStyle() = ImGuiStyle();
     ImGui::GetStyle().AntiAliasedLines = false; /* thin ones are too faint as triangles */
     ImGui::GetStyle().WindowBorderSize = 0.0f;
+    ImGui::GetStyle().FrameBorderSize = 1.0f; /* the ground of a field is too near to that of the panel */
     ImGui::GetStyle().ItemSpacing = ImVec2(4.0f, 4.0f);
     ImGui::GetStyle().FrameRounding = 0.0f;
     ImGui::GetStyle().ScaleAllSizes(scale);
@@ -620,7 +621,6 @@ void set_scale(view_panel &p, float scale)
     SDL_FreeSurface(from);
     if (p.font)
         SDL_SetTextureBlendMode(p.font, SDL_BLENDMODE_BLEND);
-    io.Fonts->SetTexID(p.font);
 }
 
 /* Triangles of lists of commands, each cut to a rectangle. */

@@ -19,9 +19,9 @@ typedef struct view_window {
     char *dropped;             /* files so far, a line each; NULL: none */
     SDL_Thread *dialog_thread; /* that waits for the dialog; NULL: there was none */
     process_child dialog;
-    int dialog_is_open;
-    Uint32 event;    /* a picture may be there */
-    SDL_mutex *lock; /* of all below */
+    int dialog_is_open, dialog_ends; /* dialog_ends: no other is to be started */
+    Uint32 event;                    /* a picture may be there */
+    SDL_mutex *lock;                 /* of all below */
     SDL_cond *changed;
     int is_woken, closing;
     int is_settled; /* since the last event */
