@@ -131,18 +131,23 @@ __attribute__((noinline)) static void light_test_capsules(light_tile *t, const u
                                                           bool by_table)
 {
     light_capsules s;
+    light_pairs pairs;
     unsigned visible = light_project_capsules(t, reference, count, by_table, &s);
     light_count_references(t, count, visible);
+    light_begin_pairs(&pairs);
     for (; visible; visible &= visible - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(visible), prim = reference[k];
         uint64_t overlaps = light_overlapping_groups(t, &s.windows, k) & ~light_skipping_groups(t, prim);
         light_count_tests(t, overlaps);
         for (; overlaps; overlaps &= overlaps - 1) {
-            const uint32_t group = (uint32_t)__builtin_ctzll(overlaps), i = group % LIGHT_PACKET_GROUPS * CGT_LANES;
-            light_test_capsule(t->committed_scene, &t->packet[group / LIGHT_PACKET_GROUPS], &s, k, i, prim, t->counts);
-            light_update_group(t, group);
+            const uint32_t group = (uint32_t)__builtin_ctzll(overlaps);
+            if (LIGHT_LANES_ARE_PAIRS)
+                light_add_pairs(t, &s, k, group, reference, &pairs);
+            else
+                light_test_capsule(t, &s, k, group, prim);
         }
     }
+    light_end_pairs(t, &s, reference, &pairs);
 }
 
 /* The visible ones of at most a vector of clusters, as bits. */

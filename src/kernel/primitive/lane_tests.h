@@ -60,9 +60,11 @@ CGT_SPU_INLINE float lane_power_reciprocal(float power)
     return power;
 }
 
+CGT_SPU_INLINE vfloat lane_length_reciprocal(vfloat rdd) { return spu_mul(spux_sqrt(rdd), spux_vfloat(1 + 0x1p-18f)); }
+
 CGT_SPU_INLINE void lane_rays_derive(lane_rays *r, float scale)
 {
-    r->rlength = spu_mul(spux_sqrt(r->rdd), spux_vfloat(1 + 0x1p-18f));
+    r->rlength = lane_length_reciprocal(r->rdd);
     r->max_dir = spux_max(spux_abs(r->dir[0]), spux_max(spux_abs(r->dir[1]), spux_abs(r->dir[2])));
     r->underflow = spu_madd(r->max_dir, spux_vfloat(0x1p-118f), spux_vfloat(0x1p-118f));
     for (int a = 0; a < 3; a++)
