@@ -127,6 +127,10 @@ async function testLines(page, folder) {
                 assert(python.includes(`run[${frame - 1}:${frame + 1}]`), python); // the one before, for speeds
             }
         }
+        await put(page, 'trails', '3\n');
+        const [, trails] = await check(run);
+        assert(trails.includes('run[17:21]'), trails); // and those of its trails
+        await put(page, 'trails', '');
         const samples = path.join(__dirname, '../readers/data');
         const several = ['water.xtc', 'water.gro'].map((name) => [name, fs.readFileSync(path.join(samples, name))]);
         const wall = ['wall.obj', Buffer.from('v -3 -3 0\nv 3 -3 0\nv 3 3 0\nv -3 3 0\nf 1 2 3 4\n')];
