@@ -230,6 +230,29 @@ async function testSettings(browser, address, page, folder) {
             dispatchEvent(new DragEvent('drop', {dataTransfer: f})); })()`);
         await on.until(`cgtPage.loads > ${before}`, 20);
     };
+    await test('lines are copied, and settings loaded, by their buttons', async () => {
+        await drop(page, 'caffeine.xyz', read('caffeine.xyz'));
+        await settle(page);
+        await page.run(`cgtPage.ask('settings')`);
+        await page.do('Browser.grantPermissions', {permissions: ['clipboardReadWrite', 'clipboardSanitizedWrite']});
+        await page.do('Page.bringToFront');
+        for (const id of ['command', 'python']) {
+            await page.run(`document.getElementById('copy-${id}').click()`);
+            await page.until(`document.getElementById('copy-${id}').textContent === 'Copied'`, 5);
+            const [copied, shown] = await page.run(`navigator.clipboard.readText().then((text) =>
+                [text, document.getElementById('${id}').value])`);
+            assert(shown.includes('caffeine.xyz'));
+            assert.strictEqual(copied, shown);
+        }
+        const file = path.join(folder, 'red.conf');
+        fs.writeFileSync(file, 'background = 802020\nstyle = plain\n');
+        const {result} = await page.do('Runtime.evaluate', {expression: `document.getElementById('load-settings')`});
+        const before = await page.run(`cgtPage.loads`);
+        await page.run('cgtPage.left = -1');
+        await page.do('DOM.setFileInputFiles', {files: [file], objectId: result.objectId});
+        await page.until(`cgtPage.loads > ${before}`, 20);
+        await compare(page, path.join(data, 'caffeine.xyz'), 'plain', 0, ['--background=802020']);
+    });
     await test('settings are saved, and read by cgt-render and another page', async () => {
         await drop(page, 'caffeine.xyz', read('caffeine.xyz'));
         await style(page, 'paper');
