@@ -73,6 +73,9 @@ async function testPictures(page) {
             await fill(page, {'out-size': size});
             await page.run(`document.getElementById('save-picture').click()`);
             assert.match(await refused(page), /^the size is pixels/);
+            const [text, panel] = await page.run(`['out-refused', 'save'].map((id) =>
+                document.getElementById(id).getBoundingClientRect().bottom)`);
+            assert(text > 0 && text <= panel, `${text} of ${panel}: the sentence is not seen`);
         }
         await fill(page, {'out-size': ''});
     });
