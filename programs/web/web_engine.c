@@ -271,10 +271,10 @@ static int open_files(const char *settings)
         frame_source_open(&web.file, &web.raw, files->run, files->count, &options, web.message, sizeof web.message))
         return fail_file();
     web.file.keep.most = kept;
-    web.file.looks_ahead = 1;
     if (figure_run_want_all(&web.file, web.message, sizeof web.message) < 0 || survey_file() ||
         web_check(cgt_figure_begin_keep(figure, &web.lead)))
         return fail_file();
+    web.file.looks_ahead = 1; /* which a survey ends */
     uint32_t number = 0;
     do {
         if (web_seek(number++))

@@ -156,10 +156,14 @@ function createFiles({unpack, openRun, openSettings, say, told}) {
         async openDropped(transfer) {
             const files = [...transfer.files], items = [...transfer.items].filter((item) => item.kind === 'file');
             // asked for at once, since items end with the event
+            const folders = items.map((item) => (item.webkitGetAsEntry() || {isDirectory: false}).isDirectory);
             const handles = await Promise.all(items.map((item) => item.getAsFileSystemHandle
                 ? item.getAsFileSystemHandle().catch(() => null) : null));
-            return open(files.map((file, k) => ({name: file.name, get: handles[k] && handles[k].kind === 'file'
-                ? () => handles[k].getFile() : async () => file})));
+            return open(files.map((file, k) => ({name: file.name, get: async () => {
+                if (folders[k])
+                    throw new Error('is a folder: open its files');
+                return handles[k] && handles[k].kind === 'file' ? handles[k].getFile() : file;
+            }})));
         },
         again: (index) => {
             if (sets[index])

@@ -5,7 +5,7 @@
 /* exported createOut */
 function createOut({send, say, openSettings, page}) {
     const $ = (id) => document.getElementById(id);
-    let run = null, frame = 0, settings = '', busy = false;
+    let run = null, frame = 0, lead = 0, settings = '';
 
     // ---- The same by others -----------------------------------------------------------------------------------------
 
@@ -36,7 +36,7 @@ function createOut({send, say, openSettings, page}) {
         return `import cgt\n\nrun = cgt.read(${paths}${topology}${spheres}${origin})\n` +
             `figure = cgt.Figure(\n${keywords})\n` +
             (run.mesh ? `figure.set_mesh(cgt.read(${text(run.mesh)})[0])\n` : '') +
-            `figure.survey(run)\nfor frame in run[${Math.max(0, frame - run.lead)}:${frame + 1}]:\n` +
+            `figure.survey(run)\nfor frame in run[${Math.max(0, frame - lead)}:${frame + 1}]:\n` +
             `    figure.show(frame)\nfigure.save("picture.png")\n`;
     }
 
@@ -115,7 +115,6 @@ function createOut({send, say, openSettings, page}) {
         $('out-refused').hidden = !text;
     }
     function setBusy(on) {
-        busy = on;
         for (const id of ['save-picture', 'save-movie'])
             $(id).disabled = on || !run;
         $('making').hidden = !on;
@@ -161,13 +160,11 @@ function createOut({send, say, openSettings, page}) {
             refuse(m.text || '');
             say(m.blob ? `${m.name}: ${(m.blob.size / 1e6).toFixed(2)} MB` : m.text ? m.text : 'cancelled', !!m.text);
         },
-        // The settings of what is shown.
-        tell(text, number) {
-            settings = text;
-            frame = number;
+        // The settings of what is shown, its frame, and how many before it belong to it.
+        tell(m) {
+            ({text: settings, frame, lead} = m);
             $('command').value = run && settings ? commandLine() : '';
             $('python').value = run && settings ? pythonLines() : '';
         },
-        isBusy: () => busy,
     };
 }

@@ -364,7 +364,7 @@
             const columns = JSON.parse(cgt.UTF8ToString(cgt._web_columns()));
             const kind = cgt._web_has_triangles() ? 'triangles' : 'spheres';
             const origin = cgt.UTF8ToString(cgt._web_origin());
-            tell('opened', {name, count, frames, columns, kind, origin, lead: cgt._web_lead()});
+            tell('opened', {name, count, frames, columns, kind, origin});
             tellValues();
             for (let text; (text = cgt._web_warning());)
                 tell('warning', {text: cgt.UTF8ToString(text)});
@@ -435,7 +435,8 @@
                                            text: message()}),
             make,
             cancel: () => { cancelled = true; },
-            settings: () => tell('settings', {text: cgt.UTF8ToString(cgt._web_settings()), frame: cgt._web_frame()}),
+            settings: () => tell('settings', {text: cgt.UTF8ToString(cgt._web_settings()), frame: cgt._web_frame(),
+                                              lead: cgt._web_lead()}),
             load: (m) => { // a settings file
                 const path = '/' + m.name.replace(/[/\0]/g, '_');
                 const before = cgt.ccall('web_values', 'string', ['string'], [null]);
@@ -529,8 +530,7 @@
                 page.columns = m.columns;
                 panel.setColumns(m.columns);
                 ask.begin(m.columns);
-                out.begin({...opened, frames: m.frames, lead: m.lead, kind: m.kind,
-                           origin: m.origin});
+                out.begin({...opened, frames: m.frames, kind: m.kind, origin: m.origin});
                 say(doubts[0] || m.name + (m.count > 1 ? ` and ${m.count - 1} more` : '') +
                     (m.frames > 1 ? ': ' + m.frames + ' frames' : ''));
                 $('time').max = Math.max(0, m.frames - 1);
@@ -576,7 +576,7 @@
             described: () => {},
             progress: (m) => out.progress(m),
             made: (m) => out.made(m),
-            settings: (m) => out.tell(m.text, m.frame),
+            settings: (m) => out.tell(m),
             loaded: (m) => {
                 panel.loaded(m);
                 page.loads++;

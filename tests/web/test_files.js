@@ -91,6 +91,9 @@ async function testAgain(page, folder) {
         fs.unlinkSync(at('run.xyz'));
         await again();
         assert.strictEqual(await page.run('cgtPage.error'), 'run.xyz: is no longer there');
+        fs.mkdirSync(at('folder'));
+        await dropReal('folder');
+        assert.strictEqual(await page.run('cgtPage.error'), 'folder: is a folder: open its files');
         await key(page, 's', 83); // what was opened before is listed
         const names = await page.run(`[...document.querySelectorAll('#recent button')].map((b) => b.textContent)`);
         assert.deepStrictEqual(names.slice(0, 2), ['run.xyz', 'other.xyz']);

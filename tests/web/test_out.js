@@ -73,6 +73,9 @@ async function testPictures(page) {
             await fill(page, {'out-size': size});
             await page.run(`document.getElementById('save-picture').click()`);
             assert.match(await refused(page), /^the size is pixels/);
+            const [text, panel] = await page.run(`['out-refused', 'save'].map((id) =>
+                document.getElementById(id).getBoundingClientRect().bottom)`);
+            assert(text > 0 && text <= panel, `${text} of ${panel}: the sentence is not seen`);
         }
         await fill(page, {'out-size': ''});
     });
@@ -127,6 +130,10 @@ async function testLines(page, folder) {
                 assert(python.includes(`run[${frame - 1}:${frame + 1}]`), python); // the one before, for speeds
             }
         }
+        await put(page, 'trails', '3\n');
+        const [, trails] = await check(run);
+        assert(trails.includes('run[17:21]'), trails); // and those of its trails
+        await put(page, 'trails', '');
         const samples = path.join(__dirname, '../readers/data');
         const several = ['water.xtc', 'water.gro'].map((name) => [name, fs.readFileSync(path.join(samples, name))]);
         const wall = ['wall.obj', Buffer.from('v -3 -3 0\nv 3 -3 0\nv 3 3 0\nv -3 3 0\nf 1 2 3 4\n')];
@@ -226,6 +233,29 @@ async function testSettings(browser, address, page, folder) {
             dispatchEvent(new DragEvent('drop', {dataTransfer: f})); })()`);
         await on.until(`cgtPage.loads > ${before}`, 20);
     };
+    await test('lines are copied, and settings loaded, by their buttons', async () => {
+        await drop(page, 'caffeine.xyz', read('caffeine.xyz'));
+        await settle(page);
+        await page.run(`cgtPage.ask('settings')`);
+        await page.do('Browser.grantPermissions', {permissions: ['clipboardReadWrite', 'clipboardSanitizedWrite']});
+        await page.do('Page.bringToFront');
+        for (const id of ['command', 'python']) {
+            await page.run(`document.getElementById('copy-${id}').click()`);
+            await page.until(`document.getElementById('copy-${id}').textContent === 'Copied'`, 5);
+            const [copied, shown] = await page.run(`navigator.clipboard.readText().then((text) =>
+                [text, document.getElementById('${id}').value])`);
+            assert(shown.includes('caffeine.xyz'));
+            assert.strictEqual(copied, shown);
+        }
+        const file = path.join(folder, 'red.conf');
+        fs.writeFileSync(file, 'background = 802020\nstyle = plain\n');
+        const {result} = await page.do('Runtime.evaluate', {expression: `document.getElementById('load-settings')`});
+        const before = await page.run(`cgtPage.loads`);
+        await page.run('cgtPage.left = -1');
+        await page.do('DOM.setFileInputFiles', {files: [file], objectId: result.objectId});
+        await page.until(`cgtPage.loads > ${before}`, 20);
+        await compare(page, path.join(data, 'caffeine.xyz'), 'plain', 0, ['--background=802020']);
+    });
     await test('settings are saved, and read by cgt-render and another page', async () => {
         await drop(page, 'caffeine.xyz', read('caffeine.xyz'));
         await style(page, 'paper');

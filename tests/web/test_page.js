@@ -347,6 +347,17 @@ async function main() {
         await page.run(`cgtPage.ask('seek', {frame: 0}, 'picture')`);
         assert.strictEqual(await page.run('cgtPage.frame'), 0);
     });
+    await test('the first frame has the speeds towards the second', async () => {
+        const file = path.join(out, 'steps.xyz'), rows = [[0, 1, 3], [5, 1, -2]];
+        fs.writeFileSync(file, rows.map((x) => `3\n\nC ${x[0]} 0 0\nC ${x[1]} 3 0\nC ${x[2]} 6 0\n`).join(''));
+        await drop(page, 'steps.xyz', fs.readFileSync(file));
+        assert.strictEqual(await set(page, 'color', 'speed'), '');
+        assert.strictEqual(await page.run('cgtPage.frame'), 0);
+        assert.match(await page.run(`cgtPage.ask('describe', {element: 0}, 'described').then((m) => m.text)`), /speed {2}5$/m);
+        await compare(page, file, 'plain', 0, ['--color=speed', '--range=' + await page.run(
+            `cgtPage.ask('settings').then((m) => /range = (.*)/.exec(m.text)[1])`)]);
+        assert.strictEqual(await set(page, 'color', undefined), '');
+    });
     await test('two fingers zoom', async () => {
         const before = (await camera(page)).split(',').map(Number);
         const touch = (type, points) => page.do('Input.dispatchTouchEvent', {type, touchPoints: points});
