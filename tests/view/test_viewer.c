@@ -442,7 +442,7 @@ TEST(options_are_set_in_the_window)
         {"style", "paper"},      {"color", "q"},         {"bonds", "0.9"}, {"show", "type > 1"}, {"ortho", NULL},
         {"background", "white"}, {"radius-by", "q/300"}, {"box", NULL},    {"trails", "3"}}; /* the last reads anew */
     static const char *const wrong[][2] = {
-        {"size", "10x10"}, {"color", "no_such"}, {"trails", "0"}, {"fill", "much"}, {"nothing", "1"}};
+        {"size", "10 x 10"}, {"color", "no_such"}, {"trails", "0"}, {"fill", "much"}, {"nothing", "1"}};
     viewer *const v = open_viewer(64);
     settle(v);
     key(v, VIEW_KEY_END, 0);
