@@ -489,8 +489,13 @@ TEST(selections)
     viewer *const v = open_viewer(64);
     settle(v);
     const uint64_t before = sum(v);
-    send_text(v, VIEW_SELECT, "q < 100");
-    expect_selection(v, "50 of 200 spheres");
+    send_text(v, VIEW_SELECT, "q >= 100"); /* not the first */
+    expect_selection(v, "150 of 200 spheres");
+    send_text(v, VIEW_SELECT, "q");
+    send_text(v, VIEW_USE, "hide");
+    settle(v);
+    assert_true(sum(v) != before);
+    key(v, 'u', 0);
     send_text(v, VIEW_SELECT, "no_such > 1");
     expect_selection(v, "no column \"no_such\"");
     send_text(v, VIEW_USE, "hide"); /* nothing */
