@@ -25,7 +25,7 @@ gzip -9nc build/wasm/bin/cgt-web.wasm >"$out/cgt-web.wasm.gz"
     node -e 'process.stdout.write(JSON.stringify(require("fs").readFileSync(process.argv[1], "utf8")))' \
         build/wasm/bin/cgt-web.worker.js
     printf ';\n'
-    cat programs/web/web_panel.js programs/web/web_page.js
+    cat programs/web/web_{ask,files,movie,out,panel,page}.js
 } >"$out/cgt-web.js"
 # Every sixth frame of a run, in the page itself.
 awk '/^ITEM: TIMESTEP/ { frame++ } frame % 6 == 0' examples/data/pour2k.lammpstrj | gzip -9n | base64 -w 120 >"$out/shipped"

@@ -144,6 +144,10 @@ int cgt_particles_select(particles *p, const particle_rules *r, const cgt_trajec
     }
     if (reserve(p, (uint64_t)f->count * copies, r->layer != NULL, error, error_size))
         return -1;
+    if (!r->layer) { /* those of rules before these */
+        free(p->layer);
+        p->layer = NULL;
+    }
     p->count = 0;
     for (uint32_t first = 0; first < f->count; first += BLOCK)
         select_block(p, r, f, index, first, f->count - first < BLOCK ? f->count - first : BLOCK);

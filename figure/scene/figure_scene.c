@@ -304,8 +304,12 @@ static int find_rules(const cgt_figure *figure, const cgt_trajectory_frame *f, f
 {
     const bounce_options *o = &figure->options.bounce;
     const uint32_t count = figure->parts.selects ? parts->particles.count : f->count;
-    if (o->count == 0 || f->kind == CGT_TRAJECTORY_TRIANGLES)
+    if (o->count == 0 || f->kind == CGT_TRAJECTORY_TRIANGLES) {
+        free(parts->rules); /* those of options before these */
+        parts->rules = NULL;
+        parts->rule_room = 0;
         return 0;
+    }
     if (!parts->rules || count > parts->rule_room) {
         free(parts->rules);
         parts->rules = malloc((size_t)count + 1);

@@ -12,34 +12,21 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "playback/figure_run.h"
 #include "view/view_camera.h"
+#include "web/web_state.h"
+#include "web/web_text.h"
 
-static struct {
-    cgt_context *context;
-    cgt_figure *figure;
-    frame_source file;
-    frame_sequence raw; /* its frames as they are */
-    uint64_t lead, frames;
-    cgt_figure_frame *shown; /* NULL: no file is open */
-    cgt_camera camera;       /* of the hand */
-    uint32_t width, height;
-    uint8_t *pixels;
-    char message[1024];
-    char doubt[1100]; /* why the file's frames end too early, or options are left out, until it is told; "": nothing */
-    char *options, *columns, *values; /* of the last calls that tell them */
-    char path[256];                   /* of the file */
-} web;
+web_state web;
 
 EMSCRIPTEN_KEEPALIVE int web_seek(uint32_t number);
 
-static int fail(const char *text)
+int web_fail(const char *text)
 {
     snprintf(web.message, sizeof web.message, "%s", text);
     return -1;
 }
 
-static int check(cgt_result result)
+int web_check(cgt_result result)
 {
     if (result)
         cgt_figure_get_error_message(web.figure, web.message, sizeof web.message);
@@ -64,31 +51,11 @@ EMSCRIPTEN_KEEPALIVE int web_start(uint32_t threads)
     if (!result)
         result = cgt_figure_create(web.context, &web.figure);
     if (result && !cgt_context_get_error_message(web.context, web.message, sizeof web.message))
-        fail(cgt_get_result_string(result));
+        web_fail(cgt_get_result_string(result));
     return result ? -1 : (int)options.threads;
 }
 
 /* ---- Options ------------------------------------------------------------------------------------------------ */
-
-/* As JSON has it. */
-static void print_string(FILE *to, const char *before, const char *text)
-{
-    fputs(before, to);
-    fputs(text ? "\"" : "null", to);
-    for (; text && *text; text++)
-        if ((unsigned char)*text < ' ')
-            fprintf(to, "\\u%04x", (unsigned)*text);
-        else
-            fprintf(to, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
-    if (text)
-        fputc('"', to);
-}
-
-static void print_text(FILE *to, const char *name, const char *text)
-{
-    fprintf(to, ",\"%s\":", name);
-    print_string(to, "", text);
-}
 
 /* A figure with one sphere that is kept: what it refuses this build cannot do. NULL: no memory. */
 static cgt_figure *create_probe(cgt_figure_frame **frame)
@@ -158,12 +125,12 @@ EMSCRIPTEN_KEEPALIVE const char *web_options(void)
         if (!has_option(probe, &o, without_text))
             continue;
         fprintf(to, "%s{\"kind\":\"%s\"", count++ ? "," : "[", kinds[o.kind]);
-        print_text(to, "name", o.name);
-        print_text(to, "group", o.group);
-        print_text(to, "value", o.value);
-        print_text(to, "help", o.help);
-        print_text(to, "words", o.words);
-        print_text(to, "otherwise", o.otherwise);
+        web_print_text(to, "name", o.name);
+        web_print_text(to, "group", o.group);
+        web_print_text(to, "value", o.value);
+        web_print_text(to, "help", o.help);
+        web_print_text(to, "words", o.words);
+        web_print_text(to, "otherwise", o.otherwise);
         if (o.kind == CGT_FIGURE_NUMBER || o.kind == CGT_FIGURE_WHOLE)
             fprintf(to, ",\"low\":%.9g,\"high\":%.9g", o.low, o.high);
         fprintf(to, ",\"optional\":%s,\"repeats\":%s}", o.is_optional ? "true" : "false", o.repeats ? "true" : "false");
@@ -182,9 +149,9 @@ EMSCRIPTEN_KEEPALIVE const char *web_options(void)
 /* The camera of the hand, or that of an option which takes its place. */
 static int change(const char *name, const char *value, int is_set)
 {
-    if (web.shown && check(cgt_figure_set_camera(web.figure, &web.camera)))
+    if (web.shown && web_check(cgt_figure_set_camera(web.figure, &web.camera)))
         return -1;
-    if (check(is_set ? cgt_figure_set(web.figure, name, value) : cgt_figure_unset(web.figure, name)))
+    if (web_check(is_set ? cgt_figure_set(web.figure, name, value) : cgt_figure_unset(web.figure, name)))
         return -1;
     if (web.shown)
         cgt_figure_get_camera(web.figure, &web.camera);
@@ -212,7 +179,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_values(const char *name)
     return web.values = get_settings(web.figure, name);
 }
 
-/* ---- A file ------------------------------------------------------------------------------------------------- */
+/* ---- Files -------------------------------------------------------------------------------------------------- */
 
 static void close_file(void)
 {
@@ -228,18 +195,50 @@ static int fail_file(void)
     return -1;
 }
 
-/* Looks at all frames, as cgt-render does, for colours and camera; of a large file at the first few. */
-static int survey_file(const char *path)
+/* Hands the mesh that stands still to the figure; none: does nothing. */
+static int read_mesh(const double origin[3])
 {
-    const off_t large = 64 << 20; /* bytes */
-    static const stop_flag never = 0;
+    cgt_trajectory *file;
+    cgt_trajectory_frame mesh;
+    if (!web.files.mesh)
+        return 0;
+    cgt_result result = cgt_trajectory_open(web.files.mesh, NULL, &file);
+    if (!result) {
+        cgt_trajectory_set_origin(file, origin);
+        result = cgt_trajectory_read(file, &mesh);
+    }
+    const int has_triangles = !result && mesh.kind == CGT_TRAJECTORY_TRIANGLES;
+    const cgt_figure_data data = {.frame = &mesh};
+    if (result)
+        cgt_trajectory_get_error_message(file, web.message, sizeof web.message);
+    else if (!has_triangles)
+        snprintf(web.message, sizeof web.message, "%.200s has no triangles", web.files.mesh);
+    const int failed = !has_triangles || web_check(cgt_figure_set_mesh(web.figure, &data));
+    cgt_trajectory_close(file);
+    return failed ? -1 : 0;
+}
+
+/* The bytes of the run's files. */
+static double run_size(void)
+{
+    double size = 0.0;
     struct stat info;
-    survey_walk survey = {
-        .most = stat(path, &info) == 0 && info.st_size > large ? 4 : UINT64_MAX, .quiet = 1, .stop = &never};
+    for (uint32_t i = 0; i < web.files.count; i++)
+        size += stat(web.files.run[i], &info) == 0 ? (double)info.st_size : 0.0;
+    return size;
+}
+
+/* Looks at all frames, as cgt-render does, for colours and camera; of a large run at the first few. */
+static int survey_file(void)
+{
+    const double large = 64 << 20; /* bytes */
+    static const stop_flag never = 0;
+    survey_walk survey = {.most = run_size() > large ? 4 : UINT64_MAX, .quiet = 1, .stop = &never};
     double origin[3];
     for (int turn = 0; turn < 2; turn++) {
         web.message[0] = '\0';
-        if (figure_run_look(web.figure, &web.file, &survey, web.message, sizeof web.message))
+        cgt_trajectory_get_origin(web.file.file, origin);
+        if (read_mesh(origin) || figure_run_look(web.figure, &web.file, &survey, web.message, sizeof web.message))
             return -1;
         if (turn || !cgt_figure_get_origin(web.figure, origin))
             break;
@@ -250,30 +249,32 @@ static int survey_file(const char *path)
     if (survey.is_cut)
         memcpy(web.doubt, web.message, sizeof web.message);
     web.frames = survey.frames;
-    return survey.frames ? 0 : fail("the file has no frame");
+    return survey.frames ? 0 : web_fail("the file has no frame");
 }
 
 /* With a figure of its own, which has the settings. Its first frame that has something is the one that is drawn. */
-static int open_file(const char *path, const char *settings)
+static int open_files(const char *settings)
 {
-    const cgt_trajectory_options options = {.threads = 1, .all_bonds = true, .leave_out_sites = true};
+    const web_files *const files = &web.files;
+    const cgt_trajectory_options options = {
+        .threads = 1, .all_bonds = true, .leave_out_sites = true, .topology = files->topology};
     const size_t kept = 64 << 20; /* bytes of frames, which are not read again */
     cgt_figure *figure;
     close_file();
     web.message[0] = web.doubt[0] = '\0';
     if (cgt_figure_create(web.context, &figure))
-        return fail("out of memory");
+        return web_fail("out of memory");
     cgt_figure_release(web.figure);
     web.figure = figure;
-    cgt_figure_set_source(figure, strrchr(web.path, '/') ? strrchr(web.path, '/') + 1 : web.path);
-    if (check(cgt_figure_set_lines(figure, settings)) ||
-        frame_source_open(&web.file, &web.raw, &path, 1, &options, web.message, sizeof web.message))
+    cgt_figure_set_source(figure, files->run[0]);
+    if (web_check(cgt_figure_set_lines(figure, settings)) ||
+        frame_source_open(&web.file, &web.raw, files->run, files->count, &options, web.message, sizeof web.message))
         return fail_file();
     web.file.keep.most = kept;
-    web.file.looks_ahead = 1;
-    if (figure_run_want_all(&web.file, web.message, sizeof web.message) < 0 || survey_file(path) ||
-        check(cgt_figure_begin_keep(figure, &web.lead)))
+    if (figure_run_want_all(&web.file, web.message, sizeof web.message) < 0 || survey_file() ||
+        web_check(cgt_figure_begin_keep(figure, &web.lead)))
         return fail_file();
+    web.file.looks_ahead = 1; /* which a survey ends */
     uint32_t number = 0;
     do {
         if (web_seek(number++))
@@ -281,33 +282,77 @@ static int open_file(const char *path, const char *settings)
     } while (!figure_run_shows(web.shown) && number < web.frames);
     if (!figure_run_shows(web.shown) && web_seek(0))
         return -1;
-    return check(cgt_figure_get_camera(figure, &web.camera)) ? fail_file() : 0;
+    return web_check(cgt_figure_get_camera(figure, &web.camera)) ? fail_file() : 0;
 }
 
-/* Opens a file. Options that do not fit it are left out, but for size and style. */
-EMSCRIPTEN_KEEPALIVE int web_open(const char *path)
+/* Takes the names of a run's files, a line each, and those of its topology and of a mesh, "" for none. */
+static int take_names(const char *run, const char *topology, const char *mesh)
 {
-    snprintf(web.path, sizeof web.path, "%s", path);
-    char settings[4096], few[128] = "size = ", why[sizeof web.message];
-    const size_t length = cgt_figure_get(web.figure, NULL, settings, sizeof settings);
-    cgt_figure_get(web.figure, "size", few + strlen(few), 32);
-    if (cgt_figure_get(web.figure, "style", NULL, 0)) {
-        strcat(few, "style = ");
-        cgt_figure_get(web.figure, "style", few + strlen(few), 32);
+    const size_t length[3] = {strlen(run) + 1, strlen(topology) + 1, strlen(mesh) + 1};
+    web_files *const f = &web.files;
+    free(f->names);
+    *f = (web_files){.names = malloc(length[0] + length[1] + length[2])};
+    if (!f->names)
+        return web_fail("out of memory for names of files");
+    memcpy(f->names, run, length[0]);
+    for (char *name = f->names; *name; f->count++) {
+        char *const end = name + strcspn(name, "\n");
+        if (f->count == WEB_FILES_MOST)
+            return web_fail("more than 10000 files");
+        f->run[f->count] = name;
+        name = end + (*end == '\n');
+        *end = '\0';
     }
-    if (length < sizeof settings && open_file(path, settings) == 0)
-        return 0;
-    if (length <= strlen(few))
-        return -1;
-    memcpy(why, web.message, sizeof why);
-    if (open_file(path, few))
-        return -1;
-    snprintf(web.doubt, sizeof web.doubt, "options are left out: %s", why);
-    return 0;
+    f->topology = *topology ? memcpy(f->names + length[0], topology, length[1]) : NULL;
+    f->mesh = *mesh ? memcpy(f->names + length[0] + length[1], mesh, length[2]) : NULL;
+    cgt_trajectory_sort_series(f->run, f->count);
+    return f->count ? 0 : web_fail("there is no file");
+}
+
+/* Opens files. Options that do not fit them are left out, but for size and style. */
+EMSCRIPTEN_KEEPALIVE int web_open(const char *run, const char *topology, const char *mesh)
+{
+    static const char *const kept[] = {"size", "style"};
+    char *const settings = get_settings(web.figure, NULL);
+    char few[128] = "", why[sizeof web.message];
+    for (size_t i = 0; i < sizeof kept / sizeof kept[0]; i++)
+        if (cgt_figure_get(web.figure, kept[i], why, sizeof why))
+            snprintf(few + strlen(few), sizeof few - strlen(few), "%s = %.32s", kept[i], why);
+    web_forget_run();
+    int failed = settings ? take_names(run, topology, mesh) : web_fail("out of memory for options");
+    if (failed)
+        close_file();
+    else if (open_files(settings) && !(failed = strlen(settings) <= strlen(few))) {
+        memcpy(why, web.message, sizeof why);
+        failed = open_files(few);
+        if (!failed)
+            snprintf(web.doubt, sizeof web.doubt, "options are left out: %s", why);
+    }
+    free(settings);
+    return failed ? -1 : 0;
 }
 
 /* Of the file, as far as it can be read. */
 EMSCRIPTEN_KEEPALIVE uint32_t web_frames(void) { return (uint32_t)web.frames; }
+
+/* How many frames before one it needs. */
+EMSCRIPTEN_KEEPALIVE uint32_t web_lead(void) { return (uint32_t)web.lead; }
+
+/* What is subtracted from places, as three numbers with commas; "": nothing. */
+EMSCRIPTEN_KEEPALIVE const char *web_origin(void)
+{
+    double o[3] = {0.0};
+    if (web.file.file)
+        cgt_trajectory_get_origin(web.file.file, o);
+    const int is_moved = o[0] != 0.0 || o[1] != 0.0 || o[2] != 0.0;
+    snprintf(web.message, sizeof web.message, is_moved ? "%.17g, %.17g, %.17g" : "", o[0], o[1], o[2]);
+    return web.message;
+}
+
+EMSCRIPTEN_KEEPALIVE int web_has_triangles(void)
+{
+    return web.shown && cgt_figure_frame_get_data(web.shown)->kind == CGT_TRAJECTORY_TRIANGLES;
+}
 
 EMSCRIPTEN_KEEPALIVE uint32_t web_frame(void)
 {
@@ -324,19 +369,20 @@ int web_seek(uint32_t number)
 {
     cgt_figure_frame *frame = NULL;
     if (!web.file.file)
-        return fail("no file is open");
+        return web_fail("no file is open");
     if (web.shown && number == web_frame())
         return 0;
     const int status =
         figure_run_keep(web.figure, &web.file, web.lead, number, &frame, web.message, sizeof web.message);
     if (status == 0)
-        fail("there is no such frame");
-    if (status <= 0 || check(cgt_figure_show_frame(web.figure, frame))) {
+        web_fail("there is no such frame");
+    if (status <= 0 || web_check(cgt_figure_show_frame(web.figure, frame))) {
         cgt_figure_frame_release(frame);
         return fail_file();
     }
     cgt_figure_frame_release(web.shown);
     web.shown = frame;
+    web_take_frame();
     return 0;
 }
 
@@ -365,7 +411,7 @@ static int set_lines_of(const char *name, const char *lines)
     for (const char *line = lines; *line;) {
         const size_t length = strcspn(line, "\n");
         char *const value = strndup(line, length);
-        const int failed = !value ? fail("out of memory for options") : web_set(name, length ? value : NULL);
+        const int failed = !value ? web_fail("out of memory for options") : web_set(name, length ? value : NULL);
         free(value);
         if (failed)
             return -1;
@@ -374,40 +420,71 @@ static int set_lines_of(const char *name, const char *lines)
     return 0;
 }
 
-/* Opens the file anew for an option by which frames are read: where they are kept a figure refuses it. */
-static int read_anew(const char *name, const char *lines)
+/* Opens the files anew with these settings, at the same frame; what is refused changes nothing. */
+static int reopen(const char *settings, int keeps_camera)
 {
     const uint32_t number = web_frame();
     const cgt_camera camera = web.camera;
+    char why[sizeof web.message];
+    char *const before = get_settings(web.figure, NULL);
+    if (!before)
+        return web_fail("out of memory for options");
+    const int failed = open_files(settings);
+    memcpy(why, web.message, sizeof why);
+    if (!(failed && open_files(before)) && web_seek(number) == 0) { /* else there is no file any more */
+        if (failed || keeps_camera)
+            web.camera = camera;
+        memcpy(web.message, why, sizeof why);
+    }
+    free(before);
+    return failed;
+}
+
+/* For an option by which frames are read: where they are kept a figure refuses it. */
+static int read_anew(const char *name, const char *lines)
+{
     char *const before = get_settings(web.figure, NULL), *next = NULL;
     cgt_figure_frame *const shown = web.shown;
     cgt_figure *const figure = web.figure;
-    int failed = before ? 0 : fail("out of memory for options");
+    int failed = before ? 0 : web_fail("out of memory for options");
     if (failed || cgt_figure_create(web.context, &web.figure)) { /* one without frames finds what the settings are */
         web.figure = figure;
         free(before);
-        return failed ? failed : fail("out of memory");
+        return failed ? failed : web_fail("out of memory");
     }
     web.shown = NULL;
-    failed = check(cgt_figure_set_lines(web.figure, before)) || set_lines_of(name, lines);
+    failed = web_check(cgt_figure_set_lines(web.figure, before)) || set_lines_of(name, lines);
     if (!failed)
         next = get_settings(web.figure, NULL);
     cgt_figure_release(web.figure);
     web.figure = figure;
     web.shown = shown;
     if (!failed && !next)
-        failed = fail("out of memory for options");
-    if (!failed) {
-        char why[sizeof web.message];
-        failed = open_file(web.path, next);
-        memcpy(why, web.message, sizeof why);
-        if (!(failed && open_file(web.path, before)) && web_seek(number) == 0) { /* else there is no file any more */
-            web.camera = camera;
-            memcpy(web.message, why, sizeof why);
-        }
-    }
+        failed = web_fail("out of memory for options");
+    if (!failed)
+        failed = reopen(next, 1);
     free(before);
     free(next);
+    return failed ? -1 : 0;
+}
+
+int web_take(const char *settings)
+{
+    if (web.shown)
+        return reopen(settings, 0);
+    char why[sizeof web.message];
+    char *const before = get_settings(web.figure, NULL);
+    if (!before)
+        return web_fail("out of memory for options");
+    const int failed =
+        web_check(cgt_figure_unset(web.figure, NULL)) || web_check(cgt_figure_set_lines(web.figure, settings));
+    memcpy(why, web.message, sizeof why);
+    if (failed) {
+        cgt_figure_unset(web.figure, NULL);
+        cgt_figure_set_lines(web.figure, before);
+        memcpy(web.message, why, sizeof why);
+    }
+    free(before);
     return failed ? -1 : 0;
 }
 
@@ -421,7 +498,7 @@ EMSCRIPTEN_KEEPALIVE int web_put(const char *name, const char *values)
             return read_anew(name, values);
     char *const before = get_settings(web.figure, name);
     if (!before)
-        return fail("out of memory for options");
+        return web_fail("out of memory for options");
     const int failed = set_lines_of(name, values);
     if (failed && repeats(name)) {
         char why[sizeof web.message];
@@ -445,7 +522,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_columns(void)
         return NULL;
     fputc('[', to);
     for (uint32_t i = 0; frame && i < frame->columns; i++) {
-        print_string(to, i ? "," : "", frame->column[i].name);
+        web_print_string(to, i ? "," : "", frame->column[i].name);
     }
     fputc(']', to);
     return fclose(to) ? NULL : web.columns;
@@ -473,7 +550,7 @@ EMSCRIPTEN_KEEPALIVE int web_resize(uint32_t width, uint32_t height)
     char size[32];
     snprintf(size, sizeof size, "%ux%u", (unsigned)width, (unsigned)height);
     if (!pixels)
-        return fail("out of memory for the picture");
+        return web_fail("out of memory for the picture");
     free(web.pixels);
     web.pixels = pixels;
     web.width = width;
@@ -488,9 +565,10 @@ EMSCRIPTEN_KEEPALIVE int web_draw(int shadows)
 {
     const cgt_image image = {.bytes = web.pixels, .channels = 4};
     if (!web.shown)
-        return fail("no file is open");
-    return check(cgt_figure_set_camera(web.figure, &web.camera)) ||
-                   check(cgt_figure_draw_quick(web.figure, shadows ? CGT_FIGURE_SHADOWS : CGT_FIGURE_PLAIN, 1, &image))
+        return web_fail("no file is open");
+    return web_check(cgt_figure_set_camera(web.figure, &web.camera)) ||
+                   web_check(
+                       cgt_figure_draw_quick(web.figure, shadows ? CGT_FIGURE_SHADOWS : CGT_FIGURE_PLAIN, 1, &image))
                ? -1
                : 0;
 }
@@ -502,9 +580,10 @@ EMSCRIPTEN_KEEPALIVE int web_grow(int begins)
     const cgt_image image = {.bytes = web.pixels, .channels = 4};
     uint32_t left = 0;
     if (!web.shown)
-        return fail("no file is open");
-    if ((begins && (check(cgt_figure_set_camera(web.figure, &web.camera)) || check(cgt_figure_begin(web.figure)))) ||
-        check(cgt_figure_step(web.figure, 1, &left)) || check(cgt_figure_read(web.figure, &image)))
+        return web_fail("no file is open");
+    if ((begins &&
+         (web_check(cgt_figure_set_camera(web.figure, &web.camera)) || web_check(cgt_figure_begin(web.figure)))) ||
+        web_check(cgt_figure_step(web.figure, 1, &left)) || web_check(cgt_figure_read(web.figure, &image)))
         return -1;
     return (int)left;
 }
@@ -514,9 +593,9 @@ EMSCRIPTEN_KEEPALIVE int web_grow(int begins)
 /* The camera that shows all of the frame; from where it looks stays. */
 EMSCRIPTEN_KEEPALIVE int web_fit(void)
 {
-    if (check(cgt_figure_set_camera(web.figure, &web.camera)) || check(cgt_figure_fit(web.figure)))
+    if (web_check(cgt_figure_set_camera(web.figure, &web.camera)) || web_check(cgt_figure_fit(web.figure)))
         return -1;
-    return check(cgt_figure_get_camera(web.figure, &web.camera));
+    return web_check(cgt_figure_get_camera(web.figure, &web.camera));
 }
 
 /* By pixels of the picture. */
@@ -546,28 +625,4 @@ EMSCRIPTEN_KEEPALIVE const char *web_camera(void)
     cgt_figure_get_chosen(web.figure, "camera", web.message, sizeof web.message);
     web.message[strcspn(web.message, "\n")] = '\0';
     return web.message;
-}
-
-/* ---- What a pixel shows ------------------------------------------------------------------------------------- */
-
-/* A sentence of it in web_message, "" where there is nothing. Returns the primitive's number, or -1. */
-EMSCRIPTEN_KEEPALIVE int web_pick(uint32_t x, uint32_t y)
-{
-    const int most = 3; /* lines without columns */
-    cgt_figure_hit hit;
-    char text[1024];
-    web.message[0] = '\0';
-    if (!web.shown || cgt_figure_set_camera(web.figure, &web.camera) || cgt_figure_pick(web.figure, x, y, &hit) ||
-        !hit.is_data)
-        return -1;
-    cgt_figure_describe(web.figure, hit.element, text, sizeof text);
-    size_t used = 0;
-    const char *c = text;
-    for (int line = 0; line < most && *c; line += *c++ == '\n')
-        if (*c == '\n' && c[1] && line + 1 < most)
-            used += (size_t)snprintf(web.message + used, sizeof web.message - used, ", ");
-        else if (*c != '\n' && !(*c == ' ' && c[1] == ' '))
-            web.message[used++] = *c;
-    web.message[used] = '\0';
-    return (int)hit.element;
 }

@@ -4,7 +4,7 @@
 // The panel of cgt-web: a control for each row of the figure's table of options, in whose words its texts are. An
 // option's values are a text with a line for each, as the engine has them: '' is not set, '\n' set without a value.
 /* exported createPanel */
-function createPanel(root, {put, say}) {
+function createPanel(root, {put, load, say}) {
     const opened = ['Colours and light:', 'Style and light:', 'What is drawn:']; // what people change most
     const grey = '#808080'; // of colours without digits
     const most = 100; // changes that can be undone
@@ -140,8 +140,10 @@ function createPanel(root, {put, say}) {
 
     function undo() {
         const last = changes.pop();
-        if (last)
+        if (last && last.name)
             put(last.name, last.before, true);
+        else if (last)
+            load(last.before);
         document.getElementById('undo').disabled = !changes.length;
     }
 
@@ -180,6 +182,12 @@ function createPanel(root, {put, say}) {
                 show(f, m.after);
             if (m.text && (m.isUndo || !f || root.hidden))
                 say(m.text);
+        },
+        // What became of a settings file, which changes many options at once.
+        loaded(m) {
+            if (!m.isRefused && !m.isUndo)
+                changes.push({name: '', before: m.before});
+            document.getElementById('undo').disabled = !changes.length;
         },
         undo,
         // Whether a field holds what was not sent yet.

@@ -593,6 +593,7 @@ TEST(options_change_what_is_shown)
                                              {"category", "heat"},
                                              {"category", "floor(heat / 2)"},
                                              {"opacity", "heat > 2=0.4"},
+                                             {"show", "heat == heat"}, /* all: none is in a layer any more */
                                              {"opacity", "bonds=0.5"}};
     static const char *const wrong[][3] = {{"color", "cold", "has no column \"cold\""},
                                            {"show", "cold > 2", "has no column \"cold\""},
@@ -647,6 +648,34 @@ TEST(options_change_what_is_shown)
     const cgt_image image = {.bytes = then};
     assert_int_equal(cgt_figure_draw(figure, &image, NULL), CGT_ERROR_INVALID_ARGUMENT);
     cgt_figure_release(figure);
+}
+
+/* Materials that no option has any more, while light still bounces, in a frame of more spheres than had one: that such
+ * a material is asked for, memory checkers alone see. */
+TEST(materials_go_with_their_option)
+{
+    cgt_figure *const figure = make_figure(), *const fresh = make_figure();
+    cgt_figure_data data = grains(), few = data;
+    uint8_t then[BYTES], expected[BYTES];
+    few.points.count = 3;
+    cgt_figure_frame *const one = keep(figure, &few), *other = NULL;
+    assert_int_equal(cgt_figure_show_frame(figure, one), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "bounces", "2"), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "material", "all=glass"), CGT_OK);
+    draw_shown(figure, then);
+    assert_int_equal(cgt_figure_unset(figure, "material"), CGT_OK);
+    data.number = 1;
+    assert_int_equal(cgt_figure_keep(figure, &data, &other, NULL, 0), CGT_OK);
+    assert_int_equal(cgt_figure_show_frame(figure, other), CGT_OK);
+    draw_shown(figure, then);
+    assert_int_equal(cgt_figure_set(fresh, "bounces", "2"), CGT_OK);
+    assert_int_equal(cgt_figure_survey(fresh, &few), CGT_OK);
+    draw(fresh, &data, expected);
+    assert_memory_equal(then, expected, sizeof then);
+    cgt_figure_release(figure);
+    cgt_figure_release(fresh);
+    cgt_figure_frame_release(one);
+    cgt_figure_frame_release(other);
 }
 
 /* Layers and words go with the frame that is released, and come with the next one. */

@@ -1,83 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The libcgt authors
 // SPDX-License-Identifier: MIT
 //
-// node test_page.js PAGES CGT_RENDER NATIVE_PICK OUT
-// The page in Chromium: what it shows is compared with native programs. Screenshots go to OUT. Prints a line for each
-// test; exit code 0 if none failed. Times are printed, and judged by nobody.
+// node test_page.js PAGES CGT_RENDER NATIVE_PICK OUT [REGEX]
+// The page in Chromium: what it shows is compared with native programs. Screenshots go to OUT. REGEX chooses tests by
+// their names. Prints a line for each test; exit code 0 if none failed. Times are printed, and judged by nobody.
 'use strict';
 const assert = require('assert'), fs = require('fs'), path = require('path'), zlib = require('zlib');
 const {execFileSync} = require('child_process');
 const {serve, start} = require('./chromium.js');
+const {test, count, read, settle, camera, pixels, compare, mouse, drag, style, drop, key, entryOf, edit, contrast, width,
+       height, data} = require('./page_tools.js');
+const {testAsk} = require('./test_ask.js');
+const {testFiles} = require('./test_files.js');
+const {testOut} = require('./test_out.js');
 
-const [pages, render, pick, out] = process.argv.slice(2);
-const data = path.join(__dirname, '../../examples/data');
-const read = (name) => fs.readFileSync(path.join(data, name));
-const width = 320, height = 200;
-let failed = 0;
-
-async function test(name, body) {
-    try {
-        const more = await body();
-        console.log(`passed: ${name}${more ? ': ' + more : ''}`);
-    } catch (error) {
-        failed++;
-        console.log(`FAILED: ${name}: ${error.stack}`);
-    }
-}
-
-// Drops a file on the page, and waits for its picture or its error.
-async function drop(page, name, bytes) {
-    await page.run(`(() => {
-        cgtPage.opened = '';
-        cgtPage.error = '';
-        cgtPage.pictures = 0;
-        const bytes = Uint8Array.from(atob('${Buffer.from(bytes).toString('base64')}'), (c) => c.charCodeAt(0));
-        const files = new DataTransfer();
-        files.items.add(new File([bytes], ${JSON.stringify(name)}));
-        dispatchEvent(new DragEvent('drop', {dataTransfer: files}));
-    })()`);
-    await page.until(`(cgtPage.opened && cgtPage.pictures) || cgtPage.error`);
-}
-async function settle(page) { // no event is on its way, and the picture is complete
-    await page.run(`cgtPage.ask('camera')`);
-    await page.run(`new Promise((done) => setTimeout(done, 50))`);
-    await page.until(`cgtPage.left === 0`);
-}
-const camera = (page) => page.run(`cgtPage.ask('camera').then((m) => m.text)`);
-async function pixels(page) {
-    const text = await page.run(`(() => {
-        const p = document.getElementById('picture');
-        const d = p.getContext('2d').getImageData(0, 0, p.width, p.height).data;
-        let text = '';
-        for (let i = 0; i < d.length; i += 4)
-            text += String.fromCharCode(d[i], d[i + 1], d[i + 2]);
-        return btoa(text);
-    })()`);
-    return Buffer.from(text, 'base64');
-}
-async function compare(page, file, style, frame = 0, options = []) {
-    await settle(page);
-    const native = execFileSync(render, ['-c', await camera(page), '-s', `${width}x${height}`, '--style', style,
-        '-o', '-', '--first', frame, '--last', frame, ...options, file].map(String), {maxBuffer: 1 << 26, stdio: ['ignore', 'pipe', 'ignore']});
-    const page_bytes = await pixels(page);
-    assert.strictEqual(page_bytes.length, native.length);
-    let differ = 0;
-    for (let i = 0; i < native.length; i++)
-        differ += native[i] !== page_bytes[i];
-    assert(new Set(native).size > 20, 'the picture is empty');
-    assert.strictEqual(differ, 0, `${differ} of ${native.length} bytes differ`);
-}
-async function mouse(page, type, x, y, buttons = 1) {
-    await page.do('Input.dispatchMouseEvent', {type, x, y, button: 'left', buttons, clickCount: 1});
-}
-async function drag(page, from, to) {
-    await mouse(page, 'mousePressed', ...from);
-    for (let i = 1; i <= 4; i++)
-        await mouse(page, 'mouseMoved', ...from.map((x, c) => x + (to[c] - x) * i / 4));
-    await mouse(page, 'mouseReleased', ...to, 0);
-}
-const style = (page, name) => page.run(`(() => { const s = document.getElementById('style'); s.value = '${name}';
-    cgtPage.left = -1; s.onchange(); })()`);
+const [pages, , pick, out] = process.argv.slice(2);
 
 // Spheres in a ball, by a generator of our own.
 function cloud(count) {
@@ -109,47 +46,6 @@ async function measure(page) {
 }
 
 // ---- The panel of options, in a window of a size ------------------------------------------------------------------
-
-async function key(page, key, code, modifiers = 0) {
-    for (const type of ['keyDown', 'keyUp'])
-        await page.do('Input.dispatchKeyEvent', {type, key, modifiers, windowsVirtualKeyCode: code,
-            ...(type === 'keyDown' && key.length === 1 && !modifiers ? {text: key} : {}),
-            ...(type === 'keyDown' && key === 'Enter' ? {text: '\r'} : {})});
-}
-// The field of an option's value.
-const entryOf = (name) =>
-    `document.querySelector('[data-option="${name}"]').querySelector('textarea, input:not([type=checkbox])')`;
-// Types an option's value as a user does, or presses its checkbox; waits for the engine's answer and the picture.
-async function edit(page, name, value) {
-    await page.run(`cgtPage.left = -1`);
-    if (value === undefined) {
-        await page.run(`document.getElementById('option-${name}').click()`);
-    } else {
-        await page.run(`(() => {
-            const e = ${entryOf(name)};
-            e.closest('details').open = true;
-            e.focus();
-            e.select();
-        })()`);
-        await page.do('Input.insertText', {text: value});
-        await page.run(`document.activeElement.blur()`);
-    }
-    await settle(page);
-}
-// The least contrast of the panel's texts to what is behind them, as WCAG 2 has it.
-const contrast = (page) => page.run(`(() => {
-    const parse = (c) => c.match(/[\\d.]+/g).map(Number);
-    const light = (c) => c.slice(0, 3).map((v) => v / 255)
-        .map((v) => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
-        .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
-    const behind = (e) => {
-        const c = parse(getComputedStyle(e).backgroundColor);
-        return c[3] === 0 ? behind(e.parentElement) : c;
-    };
-    return Math.min(...[...document.querySelectorAll('#panel :is(label, summary, button:enabled, p, input, h2)')]
-        .map((e) => [light(parse(getComputedStyle(e).color)), light(behind(e))].sort((a, b) => b - a))
-        .map(([a, b]) => (a + 0.05) / (b + 0.05)));
-})()`);
 
 async function testPanel(browser, address, [across, down]) {
     const page = await browser.open(address), name = `panel, ${across} pixels wide`;
@@ -255,6 +151,59 @@ async function testPanel(browser, address, [across, down]) {
     await page.close();
 }
 
+// What is seen first, in a window of a size.
+async function testFirst(browser, address, [across, down], isTouched) {
+    const page = await browser.open(address), name = `first sight, ${across} pixels wide`;
+    await page.do('Emulation.setDeviceMetricsOverride',
+        {width: across, height: down, deviceScaleFactor: 1, mobile: isTouched});
+    await page.do('Emulation.setTouchEmulationEnabled', {enabled: isTouched});
+    await page.run('window.isOld = true');
+    await page.do('Page.reload');
+    await page.until('!window.isOld && window.cgtPage && cgtPage.opened && cgtPage.pictures');
+    await test(`${name}: a run plays in soft light, and a few words tell what to do`, async () => {
+        await page.until(`/, [1-9][\\d,]* primitives$/.test(document.getElementById('frame').textContent)`, 10);
+        await page.until(`document.getElementById('play').textContent === 'Pause' && cgtPage.frame > 2`, 20);
+        assert.strictEqual(await page.run(`document.getElementById('style').value`), 'soft');
+        const hint = await page.run(`document.getElementById('hint').textContent`);
+        assert.strictEqual(hint, isTouched ? 'drag, pinch, open a file' : 'drag, scroll, drop a file');
+        const [wide, bar, picture] = await page.run(`[document.documentElement.scrollWidth,
+            document.getElementById('bar').offsetHeight, picture.clientWidth * picture.clientHeight]`);
+        assert(wide <= across && bar <= 90 && picture > 0.8 * across * down, `${wide}, ${bar}, ${picture}`);
+        assert(await contrast(page) >= 4.5, `contrast ${await contrast(page)}`);
+        await page.screenshot(path.join(out, `first_${across}.png`));
+    });
+    await test(`${name}: a ${isTouched ? 'finger' : 'drag'} turns it, and the words go`, async () => {
+        const before = await camera(page);
+        if (isTouched) {
+            const touch = (type, points) => page.do('Input.dispatchTouchEvent', {type, touchPoints: points});
+            await touch('touchStart', [{x: 150, y: 300, id: 1}]);
+            for (let i = 1; i <= 5; i++)
+                await touch('touchMove', [{x: 150 + 12 * i, y: 300 + 5 * i, id: 1}]);
+            await touch('touchEnd', []);
+        } else {
+            await drag(page, [300, 200], [360, 225]);
+        }
+        assert.notStrictEqual(await camera(page), before);
+        assert(await page.run(`document.getElementById('hint').hidden`));
+    });
+    await test(`${name}: Tab comes to all that can be used`, async () => {
+        const found = new Set();
+        await page.run(`document.activeElement.blur()`);
+        for (let i = 0; i < 14; i++) {
+            await key(page, 'Tab', 9);
+            found.add(await page.run(`document.activeElement.id`));
+        }
+        const all = await page.run(`[...document.querySelectorAll('canvas, button, input, select, textarea')]
+            .filter((e) => e.getClientRects().length && !e.disabled).map((e) => e.id)`);
+        assert(all.length >= 9 && all.every((id) => found.has(id)), `${all}; ${[...found]}`);
+        const names = await page.run(`[...document.querySelectorAll('button, input, select, textarea, canvas')]
+            .filter((e) => !(e.textContent.trim() || e.getAttribute('aria-label') || (e.labels && e.labels.length)))
+            .map((e) => e.id)`);
+        assert.deepStrictEqual(names, [], 'without a name');
+    });
+    await page.close();
+}
+
 async function main() {
     const alone = await serve(pages, false), isolated = await serve(pages, true), browser = await start();
     const url = (server, query) => `${server.url}/cgt-web.html?${query}`;
@@ -282,6 +231,8 @@ async function main() {
         await page.close();
         return `first picture after ${first} ms`;
     });
+    await testFirst(browser, url(isolated, ''), [1280, 720], false);
+    await testFirst(browser, url(isolated, ''), [390, 844], true);
     for (const [name, server] of [['one thread', alone], ['all threads', isolated]]) {
         const page = await browser.open(url(server, small));
         await page.until('cgtPage.ready');
@@ -341,9 +292,11 @@ async function main() {
         await page.until('cgtPage.picked !== null');
         assert.strictEqual(await page.run('cgtPage.picked'), asked);
         assert(asked >= 0);
-        assert.match(await page.run(`document.getElementById('message').textContent`), /^sphere \d+, type \d+, [A-Z][a-z]?, at /);
+        assert.match(await page.run(`document.querySelector('#picks summary').textContent`),
+            new RegExp(`^1sphere ${asked}, type \\d+, [A-Z][a-z]?$`));
     });
     await test('a compressed LAMMPS run, frames in any order', async () => {
+        await style(page, 'plain');
         await drop(page, 'pour2k.lammpstrj.gz', zlib.gzipSync(read('pour2k.lammpstrj')));
         assert.strictEqual(await page.run('cgtPage.error'), '');
         await page.until(`!document.getElementById('play').disabled`);
@@ -354,7 +307,6 @@ async function main() {
             assert.strictEqual(await page.run('cgtPage.frame'), frame);
         }
         await page.run(`cgtPage.ask('fit', {}, 'picture')`);
-        await style(page, 'plain');
         await compare(page, path.join(data, 'pour2k.lammpstrj'), 'plain', 4);
         const spheres = +read('pour2k.lammpstrj').toString().split('NUMBER OF ATOMS\n')[5].split('\n')[0];
         assert.strictEqual(await page.run(`document.getElementById('frame').textContent`),
@@ -394,6 +346,17 @@ async function main() {
         assert.strictEqual(await page.run('cgtPage.frame'), 3);
         await page.run(`cgtPage.ask('seek', {frame: 0}, 'picture')`);
         assert.strictEqual(await page.run('cgtPage.frame'), 0);
+    });
+    await test('the first frame has the speeds towards the second', async () => {
+        const file = path.join(out, 'steps.xyz'), rows = [[0, 1, 3], [5, 1, -2]];
+        fs.writeFileSync(file, rows.map((x) => `3\n\nC ${x[0]} 0 0\nC ${x[1]} 3 0\nC ${x[2]} 6 0\n`).join(''));
+        await drop(page, 'steps.xyz', fs.readFileSync(file));
+        assert.strictEqual(await set(page, 'color', 'speed'), '');
+        assert.strictEqual(await page.run('cgtPage.frame'), 0);
+        assert.match(await page.run(`cgtPage.ask('describe', {element: 0}, 'described').then((m) => m.text)`), /speed {2}5$/m);
+        await compare(page, file, 'plain', 0, ['--color=speed', '--range=' + await page.run(
+            `cgtPage.ask('settings').then((m) => /range = (.*)/.exec(m.text)[1])`)]);
+        assert.strictEqual(await set(page, 'color', undefined), '');
     });
     await test('two fingers zoom', async () => {
         const before = (await camera(page)).split(',').map(Number);
@@ -453,6 +416,9 @@ async function main() {
     await page.close();
     for (const size of [[1280, 720], [390, 844]])
         await testPanel(browser, url(isolated, small), size);
+    await testFiles(browser, url(isolated, small));
+    await testAsk(browser, url(isolated, small), out);
+    await testOut(browser, url(isolated, small), out);
     await test('inside another page the wheel acts after a click', async () => {
         const around = await browser.open(url(isolated, small));
         const inner = `<iframe src="${url(isolated, small)}" width="400" height="300"></iframe>`;
@@ -491,7 +457,7 @@ async function main() {
     await browser.close();
     alone.close();
     isolated.close();
-    process.exit(failed ? 1 : 0);
+    process.exit(count.failed ? 1 : 0);
 }
 main().catch((error) => {
     console.log(`FAILED: ${error.stack}`);
