@@ -73,10 +73,7 @@ static const char *why_left_out(const char *name)
     return NULL;
 }
 
-const char *view_options_why_not(const char *name)
-{
-    return strcmp(name, "size") == 0 ? "the window has its own" : why_left_out(name);
-}
+const char *view_options_why_not(const char *name) { return why_left_out(name); }
 
 static int finish(void *options, const char **operands, size_t count, char *error, size_t size)
 {

@@ -333,10 +333,11 @@ char *viewer_take_clipboard(viewer *v)
     return text;
 }
 
-view_request viewer_take_request(viewer *v)
+view_request viewer_take_request(viewer *v, uint32_t size[2])
 {
     pthread_mutex_lock(&v->lock);
     const view_request request = v->request;
+    memcpy(size, v->asked, sizeof v->asked);
     v->request = VIEW_ASKS_NOTHING;
     pthread_mutex_unlock(&v->lock);
     return request;

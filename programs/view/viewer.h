@@ -128,9 +128,10 @@ char *viewer_take_formula(viewer *v);
 typedef enum view_request {
     VIEW_ASKS_NOTHING = 0,
     VIEW_ASKS_PANEL, /* to open or close it */
-    VIEW_ASKS_FILE   /* for the name of one to open */
+    VIEW_ASKS_FILE,  /* for the name of one to open */
+    VIEW_ASKS_SIZE   /* that the picture has these pixels */
 } view_request;
-view_request viewer_take_request(viewer *v);
+view_request viewer_take_request(viewer *v, uint32_t size[2]);
 
 /* Text for the user to paste, once, which the caller frees; NULL: there is nothing new. */
 char *viewer_take_clipboard(viewer *v);

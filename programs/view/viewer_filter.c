@@ -85,7 +85,9 @@ void viewer_use_selection(viewer *v, const char *what)
         follow(v);
     else if (strcmp(what, "fade") == 0 && length > 0 && (size_t)length < sizeof text)
         viewer_set(v, "opacity", text);
-    else if (strcmp(what, "hide") == 0 || strcmp(what, "show") == 0 || strcmp(what, "label") == 0)
+    else if (strcmp(what, "hide") == 0 && snprintf(text, sizeof text, "(%s)", s->formula) < (int)sizeof text)
+        viewer_set(v, what, text); /* else a single word is a type */
+    else if (strcmp(what, "show") == 0 || strcmp(what, "label") == 0)
         viewer_set(v, what, s->formula);
 }
 

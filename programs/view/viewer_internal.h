@@ -151,6 +151,7 @@ struct viewer {
     char *selection; /* how many spheres the formula selects, or what is wrong with it; NULL: there is none */
     uint64_t options_version;
     view_request request;
+    uint32_t asked[2];            /* the size that is */
     pthread_mutex_t picture_lock; /* of all below */
     uint32_t *pixels;
     uint32_t pixels_width, pixels_height;

@@ -51,6 +51,8 @@ int viewer_picture_resize(viewer *v, uint32_t width, uint32_t height, float scal
         cgt_text_open(v->options.render.figure.picture.font, floorf(13.0f * v->scale + 0.5f), error, sizeof error);
     memset(v->cost, 0, sizeof v->cost);
     v->outdated = v->changed = 1;
+    if (v->draw)
+        viewer_publish(v);
     return 0;
 }
 

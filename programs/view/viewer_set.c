@@ -4,6 +4,7 @@
  * Options of the viewer's figure: whatever control changes one comes here, what was there before can be had back, and
  * panels of other threads read copies. */
 #define _POSIX_C_SOURCE 200809L
+#include "options/numbers.h"
 #include "view/viewer_internal.h"
 
 #include <stdio.h>
@@ -133,6 +134,23 @@ static void remember(viewer *v, uint32_t option, char *before, int continues)
     v->change[v->change_count++] = (view_change){option, before};
 }
 
+/* The picture has the window's size, which follows. */
+static int ask_size(viewer *v, const char *lines, char *why, size_t size)
+{
+    char text[64];
+    uint32_t width, height;
+    snprintf(text, sizeof text, "%.*s", (int)strcspn(lines, "\n"), lines);
+    if (cgt_read_size(text, &width, &height, why, size))
+        return -1;
+    pthread_mutex_lock(&v->lock);
+    v->request = VIEW_ASKS_SIZE;
+    v->asked[0] = width;
+    v->asked[1] = height;
+    pthread_mutex_unlock(&v->lock);
+    v->changed = 1; /* the window looks for it when a picture comes */
+    return 0;
+}
+
 int viewer_put(viewer *v, const char *name, const char *lines, view_put how, char *why, size_t size)
 {
     cgt_figure_option o;
@@ -144,6 +162,10 @@ int viewer_put(viewer *v, const char *name, const char *lines, view_put how, cha
     if (option == UINT32_MAX || !before || strcmp(before, lines) == 0) {
         free(before);
         return option == UINT32_MAX || !before ? -1 : 0;
+    }
+    if (strcmp(name, "size") == 0) {
+        free(before);
+        return ask_size(v, lines, why, size);
     }
     if (v->shown && is_of_reading(v, name, lines)) {
         if (viewer_read_by(v, name, lines)) {

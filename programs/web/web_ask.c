@@ -5,15 +5,14 @@
  * and which particles a formula selects. */
 #define _POSIX_C_SOURCE 200809L
 #include <emscripten.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "data/expression.h"
 #include "data/measure.h"
 #include "figure_state.h"
 #include "options/numbers.h"
+#include "view/view_ask.h"
 #include "view/view_camera.h"
 #include "web/web_state.h"
 #include "web/web_text.h"
@@ -66,54 +65,6 @@ EMSCRIPTEN_KEEPALIVE const char *web_describe(uint32_t element)
     return web.told = describe(element);
 }
 
-/* How far a place is from the axis of a capsule. */
-static double axis_distance(const float place[3], const float end[6])
-{
-    double along[3], from[3], square = 0.0, share = 0.0, distance = 0.0;
-    for (int c = 0; c < 3; c++) {
-        along[c] = (double)end[3 + c] - (double)end[c];
-        from[c] = (double)place[c] - (double)end[c];
-        square += along[c] * along[c];
-        share += along[c] * from[c];
-    }
-    share = square > 0.0 ? fmax(0.0, fmin(1.0, share / square)) : 0.0;
-    for (int c = 0; c < 3; c++)
-        distance += (from[c] - share * along[c]) * (from[c] - share * along[c]);
-    return sqrt(distance);
-}
-
-/* The sphere of the data that is drawn at a place; UINT32_MAX: none. */
-static uint32_t sphere_at(const particles *p, const float place[3])
-{
-    for (uint32_t i = 0; i < p->count; i++)
-        if (memcmp(p->xyzr + 4 * (size_t)i, place, 3 * sizeof *place) == 0)
-            return p->source[i];
-    return UINT32_MAX;
-}
-
-/* The two spheres of the bond on whose surface a hit is. Returns whether there is one: boxes, trails, arrows and floors
- * are hit, too. */
-static int find_bond(const cgt_figure_hit *hit, uint32_t ends[2])
-{
-    const frame_parts *const parts = web.figure->parts.frame;
-    const sticks *const s = &parts->sticks;
-    uint32_t nearest = UINT32_MAX;
-    double least = INFINITY;
-    for (uint32_t i = 0; i < parts->bonds && i < s->count; i++) {
-        const double off = fabs(axis_distance(hit->place, s->end + 6 * (size_t)i) - (double)s->radius[i]);
-        if (off < least) {
-            least = off;
-            nearest = i;
-        }
-    }
-    /* a hit is off by the rounding of its ray's length and place, which are of the size of t at most */
-    if (nearest == UINT32_MAX || least > 0.01 * (double)s->radius[nearest] + 1e-6 * (double)hit->t)
-        return 0;
-    for (int k = 0; k < 2; k++)
-        ends[k] = sphere_at(&parts->particles, s->end + 6 * (size_t)nearest + 3 * k);
-    return ends[0] != UINT32_MAX && ends[1] != UINT32_MAX;
-}
-
 /* ---- What was picked ---------------------------------------------------------------------------------------- */
 
 /* A sphere, which is followed through the frames by its id where there are ids; or a place on a triangle. */
@@ -139,32 +90,7 @@ static void place_of(const picked *p, float place[3])
         memcpy(place, f->xyzr + 4 * (size_t)p->element, 3 * sizeof *place);
         return;
     }
-    const uint32_t *const corner = f->index + 3 * (size_t)p->element;
-    for (int c = 0; c < 3; c++)
-        place[c] = (float)((1.0 - p->share[0] - p->share[1]) * (double)f->position[3 * (size_t)corner[0] + c] +
-                           p->share[0] * (double)f->position[3 * (size_t)corner[1] + c] +
-                           p->share[1] * (double)f->position[3 * (size_t)corner[2] + c]);
-}
-
-/* The shares of a triangle's corners at a place in its plane. */
-static void find_shares(const cgt_trajectory_frame *f, uint32_t triangle, const float place[3], double share[2])
-{
-    const uint32_t *const corner = f->index + 3 * (size_t)triangle;
-    double a[3], b[3], p[3], aa = 0.0, ab = 0.0, bb = 0.0, pa = 0.0, pb = 0.0;
-    for (int c = 0; c < 3; c++) {
-        const double from = (double)f->position[3 * (size_t)corner[0] + c];
-        a[c] = (double)f->position[3 * (size_t)corner[1] + c] - from;
-        b[c] = (double)f->position[3 * (size_t)corner[2] + c] - from;
-        p[c] = (double)place[c] - from;
-        aa += a[c] * a[c];
-        ab += a[c] * b[c];
-        bb += b[c] * b[c];
-        pa += p[c] * a[c];
-        pb += p[c] * b[c];
-    }
-    const double area = aa * bb - ab * ab; /* above 0: it was hit */
-    share[0] = area > 0.0 ? (pa * bb - pb * ab) / area : 0.0;
-    share[1] = area > 0.0 ? (pb * aa - pa * ab) / area : 0.0;
+    view_ask_place(f, p->element, p->share, place);
 }
 
 static void add_pick(uint32_t element, const float place[3])
@@ -172,7 +98,7 @@ static void add_pick(uint32_t element, const float place[3])
     const cgt_trajectory_frame *const f = shown_frame();
     picked p = {.element = element, .id = f->id ? f->id[element] : 0, .is_there = 1};
     if (f->kind == CGT_TRAJECTORY_TRIANGLES)
-        find_shares(f, element, place, p.share);
+        view_ask_shares(f, element, place, p.share);
     asked.list[asked.count++] = p;
 }
 
@@ -203,7 +129,7 @@ EMSCRIPTEN_KEEPALIVE void web_ask(uint32_t x, uint32_t y)
         if (asked.count == MEASURE_MOST)
             asked.count = 0;
         add_pick(hit.element, hit.place);
-    } else if (is_hit && shown_frame()->kind == CGT_TRAJECTORY_SPHERES && find_bond(&hit, ends)) {
+    } else if (is_hit && shown_frame()->kind == CGT_TRAJECTORY_SPHERES && view_ask_bond(web.figure, &hit, ends)) {
         asked.count = 0;
         add_pick(ends[0], hit.place);
         add_pick(ends[1], hit.place);
@@ -323,37 +249,11 @@ EMSCRIPTEN_KEEPALIVE uint32_t web_marks(float *at)
 
 /* ---- Selections --------------------------------------------------------------------------------------------- */
 
-/* Adds up what a formula selects of the shown frame: returns how many, or -1. center: gets the mean of their places. */
+/* What a formula selects of the shown frame: returns how many, or -1. center: gets the mean of their places. */
 static int64_t sum_selected(const char *formula, double center[3])
 {
-    enum { BLOCK = 1024 };
-    const cgt_trajectory_frame *const f = web.shown ? shown_frame() : NULL;
-    double value[BLOCK];
-    int64_t count = 0;
-    if (!f || f->kind == CGT_TRAJECTORY_TRIANGLES)
-        return web_fail(f ? "selections are of spheres, and this is a file of triangles" : "no file is open");
-    expression *const e = cgt_expression_parse(formula, web.message, sizeof web.message);
-    if (!e || cgt_expression_bind(e, f, web.shown->speed, web.message, sizeof web.message)) {
-        cgt_expression_free(e);
-        return -1;
-    }
-    memset(center, 0, 3 * sizeof *center);
-    for (uint32_t first = 0; first < f->count; first += BLOCK) {
-        const uint32_t size = f->count - first < BLOCK ? f->count - first : BLOCK;
-        cgt_expression_values(e, first, size, value);
-        for (uint32_t i = 0; i < size; i++) {
-            const float *const place = f->xyzr + 4 * ((size_t)first + i);
-            if (!cgt_expression_holds(value[i]))
-                continue;
-            count++;
-            for (int c = 0; c < 3; c++)
-                center[c] += (double)place[c];
-        }
-    }
-    for (int c = 0; c < 3; c++)
-        center[c] /= count ? (double)count : 1.0;
-    cgt_expression_free(e);
-    return count;
+    return web.shown ? view_ask_select(web.shown, formula, center, web.message, sizeof web.message)
+                     : web_fail("no file is open");
 }
 
 /* How many spheres of the shown frame a formula selects, or -1. */

@@ -442,7 +442,7 @@ TEST(options_are_set_in_the_window)
         {"style", "paper"},      {"color", "q"},         {"bonds", "0.9"}, {"show", "type > 1"}, {"ortho", NULL},
         {"background", "white"}, {"radius-by", "q/300"}, {"box", NULL},    {"trails", "3"}}; /* the last reads anew */
     static const char *const wrong[][2] = {
-        {"size", "10x10"}, {"color", "no_such"}, {"trails", "0"}, {"fill", "much"}, {"nothing", "1"}};
+        {"size", "10 x 10"}, {"color", "no_such"}, {"trails", "0"}, {"fill", "much"}, {"nothing", "1"}};
     viewer *const v = open_viewer(64);
     settle(v);
     key(v, VIEW_KEY_END, 0);
@@ -489,8 +489,13 @@ TEST(selections)
     viewer *const v = open_viewer(64);
     settle(v);
     const uint64_t before = sum(v);
-    send_text(v, VIEW_SELECT, "q < 100");
-    expect_selection(v, "50 of 200 spheres");
+    send_text(v, VIEW_SELECT, "q >= 100"); /* not the first */
+    expect_selection(v, "150 of 200 spheres");
+    send_text(v, VIEW_SELECT, "q");
+    send_text(v, VIEW_USE, "hide");
+    settle(v);
+    assert_true(sum(v) != before);
+    key(v, 'u', 0);
     send_text(v, VIEW_SELECT, "no_such > 1");
     expect_selection(v, "no column \"no_such\"");
     send_text(v, VIEW_USE, "hide"); /* nothing */

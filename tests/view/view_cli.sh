@@ -108,6 +108,24 @@ shot panel.png
 END
     same view_0000-3.png
     grep -q -e '--radius-scale=0.4' "$tmp/command" || fail "the panel sets nothing: $(cat "$tmp/command")"
+    # the option size is the picture's, and the window follows
+    view 0 -s 700x400 --style plain -a 1 "$data/caffeine.xyz" <<'END'
+settle
+key o
+settle
+text size
+key Return
+key Ctrl+A
+text 300x200
+key Return
+wait 0.3
+key Escape
+key s
+settle
+END
+    same view_0000-4.png
+    grep -q -e '--size=300x200' "$tmp/command" || fail "the panel does not set the size: $(cat "$tmp/command")"
+    rm "$tmp/view_0000-4.png"
 fi
 
 # A window without a file; files that are dropped on it, read anew, with settings that are saved and loaded.
@@ -181,6 +199,7 @@ key m
 settle
 say
 END
+grep -q 'view.mp4' "$tmp/stderr" && fail "a movie that was ended is told as one that failed: $(cat "$tmp/stderr")"
 if command -v ffmpeg >/dev/null; then
     (cd "$tmp" && "$render" --settings view.settings -q -o again.mp4 "$pour") >/dev/null 2>&1
     cmp -s "$tmp/view.mp4" "$tmp/again.mp4" || fail "m does not write what cgt-render does"

@@ -147,6 +147,15 @@ static void open_panel(view_window *w, int is_open)
         view_panel_focus(w->panel);
 }
 
+static void set_picture_size(view_window *w, const uint32_t size[2])
+{
+    float pixels, scale;
+    get_scale(w->window, &pixels, &scale);
+    w->grown = w->panel_is_open ? (int)(panel_width * scale / pixels) : 0; /* which goes when the panel does */
+    SDL_SetWindowSize(w->window, (int)((float)size[0] / pixels + 0.5f) + w->grown,
+                      (int)((float)size[1] / pixels + 0.5f));
+}
+
 /* Shows the panel where it differs, or is asked for. */
 static void present_panel(view_window *w, int all)
 {
@@ -201,9 +210,11 @@ static void present(view_window *w, int all)
     if (clipboard)
         SDL_SetClipboardText(clipboard);
     free(clipboard);
-    switch (viewer_take_request(w->viewer)) {
+    uint32_t size[2];
+    switch (viewer_take_request(w->viewer, size)) {
     case VIEW_ASKS_PANEL: open_panel(w, !w->panel_is_open); break;
     case VIEW_ASKS_FILE: view_dialog_open(w); break;
+    case VIEW_ASKS_SIZE: set_picture_size(w, size); break;
     case VIEW_ASKS_NOTHING: break;
     }
 }
