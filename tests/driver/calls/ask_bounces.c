@@ -13,7 +13,7 @@
 #include "driver/driver.h"
 #include "support/oracle/oracle_line.h"
 
-#define MOST 160u /* rays that go on */
+#define MOST 64u /* rays that go on */
 #define BOUNCES 2u
 
 typedef enum medium { MIRROR, STRAIGHT, GLASS, MEDIA } medium;
