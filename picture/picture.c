@@ -90,6 +90,7 @@ static cgt_result make_planes(cgt_picture *p, const cgt_picture_options *checked
     for (uint32_t k = 0; k < PARTS; k++) {
         next[k] = (drawing){.options = checked, .srgb = &p->srgb, .context = p->context};
         next[k].antialias = k == WHOLE ? 1 : checked->antialias;
+        next[k].keeps_whole = k == 0 && draw_keeps_whole(checked);
         if ((k == WHOLE ? !draw_keeps_whole(checked) : k > layers_of(checked)) || cgt_draw_init(&next[k]) == 0)
             continue;
         while (k-- > 0)
@@ -246,7 +247,7 @@ static cgt_result trace_parts(cgt_picture *p, const cgt_trace_options *options)
     cgt_result result = CGT_OK;
     for (uint32_t k = 0; k <= layers_of(&p->options) && result == CGT_OK; k++)
         result = cgt_draw_trace(part_of(p, k), p->scene, k ? NULL : options);
-    return result;
+    return result == CGT_OK && p->opaque.whole ? cgt_draw_find_whole(&p->opaque) : result;
 }
 
 static cgt_result step_parts(cgt_picture *p, uint32_t samples)

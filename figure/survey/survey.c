@@ -5,6 +5,7 @@
  * its own, which `merge` adds at the end: the sum does not depend on who looked at what. */
 #include "survey/survey.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -61,31 +62,70 @@ static int may_reach_farther(const camera_reach *reach, const camera_directions 
     return 0;
 }
 
+/* A sphere's four numbers, side by side. */
+typedef float floats __attribute__((vector_size(16)));
+typedef int32_t ints __attribute__((vector_size(16)));
+
+static inline floats select(floats a, floats b, ints mask) { return (floats)(((ints)a & ~mask) | ((ints)b & mask)); }
+
+/* Bounds of spheres, in the first three lanes. */
+typedef struct block_bounds {
+    floats min, max;               /* of the spheres */
+    floats center_min, center_max; /* of their centres */
+    float largest;                 /* radius */
+} block_bounds;
+
+static block_bounds begin_bounds(const survey *s)
+{
+    const floats infinite = {INFINITY, INFINITY, INFINITY, INFINITY};
+    block_bounds b = {.min = infinite, .max = -infinite, .center_min = infinite, .center_max = -infinite};
+    memcpy(&b.min, s->bounds_min, sizeof s->bounds_min);
+    memcpy(&b.max, s->bounds_max, sizeof s->bounds_max);
+    return b;
+}
+
+/* As bound_point(), three coordinates at once. */
+static inline void bound_sphere(block_bounds *b, const float *sphere, float radius)
+{
+    floats place;
+    memcpy(&place, sphere, sizeof place);
+    const floats low = place - radius, high = place + radius;
+    b->min = select(b->min, low, low < b->min);
+    b->max = select(b->max, high, high > b->max);
+    b->center_min = select(b->center_min, place, place < b->center_min);
+    b->center_max = select(b->center_max, place, place > b->center_max);
+    b->largest = radius > b->largest ? radius : b->largest;
+}
+
 /* The spheres [first, first + count), a block at most. */
 static void survey_block(survey *s, const frame_sequence *sequence, const camera_directions *fit, uint32_t first,
                          uint32_t count, const uint8_t *shown)
 {
     static const particle_rules as_it_is = {.radius_scale = 1.0f};
     const cgt_trajectory_frame *const f = &sequence->frame;
-    float radius[BLOCK], largest = 0.0f, min[3], max[3]; /* of the centres */
-    int is_drawable[BLOCK];
-    for (int c = 0; c < 3; c++) {
-        min[c] = INFINITY;
-        max[c] = -INFINITY;
-    }
+    block_bounds bounds = begin_bounds(s);
+    uint8_t is_drawable[BLOCK];
+    float radius[BLOCK];
     cgt_particle_radii(sequence->rules ? sequence->rules : &as_it_is, f, first, count, radius);
+    for (uint32_t k = 0; k < count; k++) { /* false for NaN, without branches */
+        const float *const sphere = f->xyzr + 4 * (size_t)(first + k);
+        is_drawable[k] = (fabsf(sphere[0]) <= FLT_MAX) & (fabsf(sphere[1]) <= FLT_MAX) & (fabsf(sphere[2]) <= FLT_MAX) &
+                         (radius[k] >= 0.0f) & (radius[k] <= FLT_MAX) & (!shown || shown[k]);
+    }
     for (uint32_t k = 0; k < count; k++) {
         const float *const sphere = f->xyzr + 4 * (size_t)(first + k);
-        is_drawable[k] = (!shown || shown[k]) && finite_point(sphere) && isfinite(radius[k]) && radius[k] >= 0.0f;
         if (!is_drawable[k])
             continue;
         s->drawable++;
-        bound_point(min, max, sphere, 0.0f);
-        bound_point(s->bounds_min, s->bounds_max, sphere, radius[k]);
-        largest = radius[k] > largest ? radius[k] : largest;
+        bound_sphere(&bounds, sphere, radius[k]);
         cgt_bulk_add(&s->bulk, f->number, first + k, f->id ? f->id[first + k] : first + k, sphere, radius[k]);
     }
-    if (!may_reach_farther(&s->reach, fit, min, max, largest))
+    memcpy(s->bounds_min, &bounds.min, sizeof s->bounds_min);
+    memcpy(s->bounds_max, &bounds.max, sizeof s->bounds_max);
+    float min[4], max[4];
+    memcpy(min, &bounds.center_min, sizeof min);
+    memcpy(max, &bounds.center_max, sizeof max);
+    if (!may_reach_farther(&s->reach, fit, min, max, bounds.largest))
         return;
     for (uint32_t k = 0; k < count; k++)
         if (is_drawable[k])
@@ -133,18 +173,28 @@ static void survey_time(survey_times *t, const cgt_trajectory_frame *frame, int 
 }
 
 /* Types are those of all spheres, so that a filter does not choose other colours; numbers those that are shown. */
-static void survey_names(survey *s, const cgt_trajectory_frame *frame, uint32_t i, int is_shown)
+static void survey_names(survey *s, const cgt_trajectory_frame *frame, uint32_t first, uint32_t count,
+                         const uint8_t *shown)
 {
-    const uint32_t id = frame->id ? frame->id[i] : i;
-    s->hidden += !is_shown;
-    if (is_shown) {
-        s->id_min = id < s->id_min ? id : s->id_min;
-        s->id_max = id > s->id_max ? id : s->id_max;
+    const uint32_t *const id = frame->id ? frame->id + first : NULL;
+    const uint32_t *const type = frame->type ? frame->type + first : NULL;
+    uint32_t id_min = s->id_min, id_max = s->id_max, type_min = s->type_min, type_max = s->type_max;
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t number = id ? id[k] : first + k;
+        s->hidden += shown && !shown[k];
+        if (shown && !shown[k])
+            continue;
+        id_min = number < id_min ? number : id_min;
+        id_max = number > id_max ? number : id_max;
     }
-    if (!frame->type)
-        return;
-    s->type_min = frame->type[i] < s->type_min ? frame->type[i] : s->type_min;
-    s->type_max = frame->type[i] > s->type_max ? frame->type[i] : s->type_max;
+    for (uint32_t k = 0; k < count && type; k++) {
+        type_min = type[k] < type_min ? type[k] : type_min;
+        type_max = type[k] > type_max ? type[k] : type_max;
+    }
+    s->id_min = id_min;
+    s->id_max = id_max;
+    s->type_min = type_min;
+    s->type_max = type_max;
 }
 
 /* The range of the first formula, which is that of the colours, over a block of the spheres or vertices. */
@@ -328,10 +378,9 @@ static void survey_piece(void *user, uint32_t index)
     const camera_directions *const fit = fit_of(team);
     uint8_t mask[BLOCK];
     if (frame->kind == CGT_TRAJECTORY_TRIANGLES) {
-        for (uint32_t i = first; i < last; i++) {
-            survey_names(s, frame, i, 1);
+        survey_names(s, frame, first, last - first, NULL);
+        for (uint32_t i = first; i < last; i++)
             survey_triangle(s, frame, fit, i);
-        }
     }
     for (uint32_t i = begin; i < end; i += BLOCK) {
         const uint32_t count = end - i < BLOCK ? end - i : BLOCK;
@@ -339,8 +388,7 @@ static void survey_piece(void *user, uint32_t index)
         survey_columns(s, sequence, i, count, shown);
         if (frame->kind == CGT_TRAJECTORY_TRIANGLES)
             continue;
-        for (uint32_t k = 0; k < count; k++)
-            survey_names(s, frame, i + k, !shown || shown[k]);
+        survey_names(s, frame, i, count, shown);
         survey_block(s, sequence, fit, i, count, shown);
     }
 }

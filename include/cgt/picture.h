@@ -224,8 +224,8 @@ typedef struct cgt_picture cgt_picture;
  * Memory:  the C library's. PLAIN: 10 KB. BOUNCES: 20 bytes a ray, and 3.3 MB + 1.4 MB * (bounces + 1) for each thread
  *          while it traces. Else 24 bytes a ray (a pixel has antialias * antialias), 8 more from the first picture
  *          with triangles, 4 with ambient occlusion, 8 after two steps of it, 1 for each hard light with shadows, 4 for
- *          each soft one, all of it again for each layer; with antialiasing and no layer 4 more, and as much as a ray
- *          for each pixel; during a step with soft lights 600 bytes for each ray of a row, times its samples
+ *          each soft one, all of it again for each layer; with antialiasing 4 more, and as much as a ray for each
+ *          pixel; during a step with soft lights 600 bytes for each ray of a row, times its samples
  * Threads: one at a time uses a picture; several pictures may be made of one scene at once
  * Errors:  INVALID_ARGUMENT, OUT_OF_MEMORY, TOO_LARGE */
 CGT_API cgt_result cgt_picture_create(cgt_context *context, const cgt_picture_options *options, cgt_picture **picture);

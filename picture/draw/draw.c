@@ -10,9 +10,6 @@
 
 /* ---- Memory ------------------------------------------------------------------------------------------------- */
 
-/* Whole pixels leave the rays of others apart. */
-static int has_rest(const drawing *d) { return d->antialias > 1 && draw_keeps_whole(d->options); }
-
 /* Bytes a ray: t, primitive, geometry and normal; then what the lights need. */
 static size_t bytes_a_ray(const drawing *d)
 {
@@ -20,7 +17,7 @@ static size_t bytes_a_ray(const drawing *d)
     size_t bytes = 6 * sizeof(float);
     if (o->shading == CGT_SHADING_BOUNCES)
         return 5 * sizeof(float);
-    bytes += has_rest(d) ? sizeof(uint32_t) : 0;
+    bytes += d->keeps_whole ? sizeof(uint32_t) : 0;
     bytes += o->lighting.ambient ? sizeof(float) : 0;
     for (uint32_t i = 0; i < o->lighting.light_count; i++)
         bytes += !o->lighting.lights[i].shadows ? 0 : draw_is_soft(&o->lighting.lights[i]) ? sizeof(float) : 1;
@@ -51,7 +48,7 @@ static void lay_out(drawing *d, uint32_t first_row)
     d->geometry = take(&memory, rays, size, before);
     for (int c = 0; c < 3; c++)
         d->normal[c] = take(&memory, rays, size, before);
-    d->rest_plane = has_rest(d) ? take(&memory, rays, size, before) : NULL;
+    d->rest_plane = d->keeps_whole ? take(&memory, rays, size, before) : NULL;
     d->sky_plane = o->lighting.ambient ? take(&memory, rays, size, before) : NULL;
     for (uint32_t i = 0; i < o->lighting.light_count; i++)
         d->reach_plane[i] = draw_is_soft(&o->lighting.lights[i]) ? take(&memory, rays, size, before) : NULL;
@@ -245,8 +242,7 @@ cgt_result cgt_draw_trace(drawing *d, const cgt_scene *scene, const cgt_trace_op
         if (hidden != CGT_OK)
             return hidden;
     }
-    const cgt_result lit = draw_is_stopped(d) ? CGT_ERROR_STOPPED : cgt_draw_trace_hard_lights(d, scene);
-    return lit == CGT_OK && d->whole ? cgt_draw_find_whole(d) : lit;
+    return draw_is_stopped(d) ? CGT_ERROR_STOPPED : cgt_draw_trace_hard_lights(d, scene);
 }
 
 uint32_t cgt_draw_samples(const drawing *d) { return d->ambient > d->light_samples ? d->ambient : d->light_samples; }

@@ -47,6 +47,7 @@ struct drawing {
     /* Whole pixels go on as one ray each, in a frame of their own, and `rest` has the primitives of the other rays; see
      * draw_whole.c. NULL: there are none. */
     drawing *whole;
+    int keeps_whole; /* there are planes for them */
     uint32_t *rest_plane;
     /* What is transparent has planes of its own, where it is nearer than what is opaque; else its rays hit nothing. */
     drawing *layer; /* of the opaque one */
@@ -107,7 +108,7 @@ int cgt_draw_make_uv(drawing *d);
  * every ray. How many rays to the sky or to a light such a pixel takes for one of another ray. */
 static inline int draw_keeps_whole(const cgt_picture_options *o)
 {
-    return o->shading == CGT_SHADING_FULL && o->antialias > 1 && !o->style.layer_count;
+    return o->shading == CGT_SHADING_FULL && o->antialias > 1;
 }
 static inline int draw_has_whole(const cgt_picture_options *o)
 {
@@ -116,7 +117,7 @@ static inline int draw_has_whole(const cgt_picture_options *o)
 static inline const uint32_t *draw_rest(const drawing *d) { return d->whole ? d->rest_plane : d->primitive; }
 static inline uint32_t draw_whole_rays(const cgt_picture_options *o) { return o->antialias * o->antialias; }
 
-/* The same: finds them after the camera's rays and hard lights; lays what they see on their rays, after each step. */
+/* The same: finds them after the camera's rays and hard lights, those of layers, too; lays what they see on their rays, after each step. */
 cgt_result cgt_draw_find_whole(drawing *d);
 cgt_result cgt_draw_spread_whole(drawing *d);
 

@@ -170,21 +170,6 @@ static void add_rays(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels
     }
 }
 
-/* The pixels of a row, from px on, that are not whole: cut where some in a row are. */
-static void add_rest(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels, pixel_sum *sum)
-{
-    const uint32_t n = d->options->antialias;
-    const uint32_t *const rest = d->rest_plane + (size_t)py * n * d->ray_width + (size_t)px * n;
-    for (uint32_t i = 0, end; i < pixels; i = end) {
-        end = i + 1;
-        if (draw_is_background(rest + (size_t)i * n, d->ray_width, n, n))
-            continue;
-        while (end < pixels && !draw_is_background(rest + (size_t)end * n, d->ray_width, n, n))
-            end++;
-        add_rays(d, px + i, py, end - i, sum + i);
-    }
-}
-
 /* Whether no ray of some pixels of a row hits anything. */
 static int is_background(const drawing *d, uint32_t x, uint32_t y, uint32_t pixels)
 {
@@ -194,6 +179,20 @@ static int is_background(const drawing *d, uint32_t x, uint32_t y, uint32_t pixe
     for (uint32_t l = 0; l < d->layers && is_empty; l++)
         is_empty = draw_is_background(d->layer[l].primitive + first, d->ray_width, pixels * n, n);
     return is_empty;
+}
+
+/* The pixels of a row, from px on, that are not whole: cut where some in a row are, or background. */
+static void add_rest(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels, pixel_sum *sum)
+{
+    const uint32_t *const whole = d->whole->primitive + (size_t)py * d->whole->ray_width + px;
+    for (uint32_t i = 0, end; i < pixels; i = end) {
+        for (end = i; end < pixels && whole[end] == CGT_INVALID_ID && !is_background(d, px + end, py, 1);)
+            end++;
+        if (end > i)
+            add_rays(d, px + i, py, end - i, sum + i);
+        else
+            end++;
+    }
 }
 
 static void add_background(const drawing *d, pixel_sum *sum)

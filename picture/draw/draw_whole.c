@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Whole pixels: those with antialiasing all of whose rays hit one sphere or capsule, in the same hard lights and of the
- * same colour, where that is nearly flat. There antialiasing has nothing to do: such a pixel goes on as one ray through
+ * same colour, where that is nearly flat and no layer lies before it. There antialiasing has nothing to do: such a pixel goes on as one ray through
  * its centre, which takes the rays to the sky and to soft lights of all of them, and is averaged and shaded once. What
  * it sees is laid on its rays then, whose neighbours of other pixels average over it, too. */
 #include <math.h>
@@ -26,6 +26,9 @@ static inline int is_alike(const drawing *d, size_t k, uint32_t n)
     for (uint32_t l = 0; l < d->options->lighting.light_count; l++)
         for (uint32_t i = 0; i < n * n && d->occluded[l]; i++)
             differ |= d->occluded[l][k + (size_t)(i / n) * d->ray_width + i % n] ^ d->occluded[l][k];
+    for (uint32_t l = 0; l < d->layers; l++) /* CGT_INVALID_ID is all ones */
+        for (uint32_t i = 0; i < n * n; i++)
+            differ |= ~d->layer[l].primitive[k + (size_t)(i / n) * d->ray_width + i % n];
     for (uint32_t i = 0; i < n * n && look->of.halves; i++)
         differ |= (d->u[k + (size_t)(i / n) * d->ray_width + i % n] > 0.5f) != (d->u[k] > 0.5f);
     return !differ && !look->is_triangles;
