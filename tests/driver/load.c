@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * A scene in the library, by any structure, variant and number of threads, from arrays of any form. */
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -391,7 +392,8 @@ static void widen(const oracle_primitive *p, int a, double ends[2])
     }
 }
 
-/* Around all that is hit, and no farther than rounding takes them; triangles of little area may be skipped. */
+/* Around all that is hit, and no farther than rounding takes them, which may be infinity; triangles of little area may be
+ * skipped. */
 static bool are_bounds(const judge_scene *s, const cgt_scene_statistics *st)
 {
     bool good = true;
@@ -407,8 +409,10 @@ static bool are_bounds(const judge_scene *s, const cgt_scene_statistics *st)
         }
         const double low = (double)st->bounds_min[a], high = (double)st->bounds_max[a],
                      slack = 0x1p-21 * fmax(fabs(most[0]), fabs(most[1])) + 0x1p-148;
+        const double least = most[0] - slack < -FLT_MAX ? -INFINITY : most[0] - slack,
+                     greatest = most[1] + slack > FLT_MAX ? INFINITY : most[1] + slack;
         if (sure[0] <= sure[1])
-            good &= low <= sure[0] && high >= sure[1] && low >= most[0] - slack && high <= most[1] + slack;
+            good &= low <= sure[0] && high >= sure[1] && low >= least && high <= greatest;
         else if (most[0] > most[1])
             good &= low == 0 && high == 0;
     }
