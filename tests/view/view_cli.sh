@@ -125,7 +125,7 @@ settle
 END
     same view_0000-4.png
     grep -q -e '--size=300x200' "$tmp/command" || fail "the panel does not set the size: $(cat "$tmp/command")"
-    rm "$tmp/view_0000-4.png"
+    rm "$tmp/view_0000-3.png" "$tmp/view_0000-4.png" # names are those of a build without a panel
 fi
 
 # A window without a file; files that are dropped on it, read anew, with settings that are saved and loaded.
@@ -153,7 +153,7 @@ settle
 key s
 settle
 END
-same view_0000-4.png
+same view_0000-3.png
 says out '^frame 3, full, 1/1, color type, '
 says err '^cgt-view: missing.xyz: No such file or directory$'
 [ "$(grep -c missing "$tmp/stderr")" -eq 1 ] || fail "a file that is not there is opened twice"
@@ -180,7 +180,7 @@ key s
 settle
 END
 wait
-same view_0000-5.png # by the file that is there now
+same view_0000-4.png # by the file that is there now
 
 # A movie is cgt-render's, and one that is ended leaves nothing; Python for a picture.
 mkdir "$tmp/temporary"
@@ -488,6 +488,7 @@ same "$(cd "$tmp" && ls view_*.png | tail -n 1)"
 cp "$data/pour2k.lammpstrj" "$data/caffeine.xyz" "$tmp"
 sed -n -e '/^## Scripts/,$s/^    printf/printf/p' -e '/^## Scripts/,$s/^    cgt-view/run 0/p' "$guide" >"$tmp/guide"
 [ "$(wc -l <"$tmp/guide")" -eq 8 ] || fail "not eight commands in $guide"
+"$program" --help | grep -q 'o opens a panel' || sed -i '/panel/d' "$tmp/guide" # Space would play there
 while read -r command; do
     case $command in
     printf*) (cd "$tmp" && eval "$command") ;;
