@@ -115,7 +115,11 @@ static inline int draw_has_whole(const cgt_picture_options *o)
     return draw_keeps_whole(o) && !(o->style.outline > 0.0f);
 }
 static inline const uint32_t *draw_rest(const drawing *d) { return d->whole ? d->rest_plane : d->primitive; }
-static inline uint32_t draw_whole_rays(const cgt_picture_options *o) { return o->antialias * o->antialias; }
+static inline uint32_t draw_whole_rays(const cgt_picture_options *o)
+{
+    return o->antialias == 2 ? 4
+                             : 24; /* of sixteen rays: half as much more, since theirs began at places of their own */
+}
 
 /* The same: finds them after the camera's rays and hard lights, those of layers, too; lays what they see on their rays, after each step. */
 cgt_result cgt_draw_find_whole(drawing *d);
