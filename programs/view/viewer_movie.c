@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Movies of what is seen: cgt-render makes them, in a process of its own, by the settings of the picture at hand; so they
- * have its bytes, and the window goes on. */
+ * Movies of what is seen: cgt-render makes them, in a process of its own, by the settings of the picture at hand; so
+ * they have its bytes, and the window goes on. */
 #define _POSIX_C_SOURCE 200809L
 #include "view/viewer_internal.h"
 

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Other files in place of those that are shown, the same read anew, and settings files. What fails leaves all as it is. */
+ * Other files in place of those that are shown, the same read anew, and settings files. What fails leaves all as it
+ * is. */
 #define _POSIX_C_SOURCE 200809L
 #include "view/viewer_internal.h"
 

@@ -80,7 +80,8 @@ static uint32_t find_option(const char *name, cgt_figure_option *option)
     return UINT32_MAX;
 }
 
-/* Lines as cgt_figure_get has them; "\n": set without a value; "": not set. What is refused may leave some of several. */
+/* Lines as cgt_figure_get has them; "\n": set without a value; "": not set. What is refused may leave some of
+ * several. */
 static int set_lines(viewer *v, const cgt_figure_option *o, const char *lines, char *why, size_t size)
 {
     const size_t first = strcspn(lines, "\n");
@@ -104,8 +105,8 @@ static int set_lines(viewer *v, const cgt_figure_option *o, const char *lines, c
     return 0;
 }
 
-/* Frames that are kept are of such an option: they are read anew. So they are where bonds are to be guessed, or sites to be
- * shown, that were left out so far. */
+/* Frames that are kept are of such an option: they are read anew. So they are where bonds are to be guessed, or sites
+ * to be shown, that were left out so far. */
 static int is_of_reading(const viewer *v, const char *name, const char *lines)
 {
     const cgt_trajectory_options *const r = &v->draw->options.reading;

@@ -108,8 +108,8 @@ static void add(double v[3], double times, const double edge[3])
 }
 
 /* The least that an image of a vector has, of parts up to 1, in a box whose edges are at least 1 along their own axis
- * and tilted by half at most. An image no longer than it differs from it by 2.8 along z: 2 edges; along y by 2.8 and what
- * these are tilted by: 3; along x: 5. */
+ * and tilted by half at most. An image no longer than it differs from it by 2.8 along z: 2 edges; along y by 2.8 and
+ * what these are tilted by: 3; along x: 5. */
 static double search_images(const double edge[3][3], int bits, const double vector[3])
 {
     enum { AROUND = 5 };

@@ -23,8 +23,8 @@ void view_panel_free(view_panel *p); /* NULL is ignored */
 /* Begins at its search field, which has the keyboard then. */
 void view_panel_focus(view_panel *p);
 
-/* Takes an event. `left` is where the panel begins, in pixels, `pixels` how many a unit of the window's coordinates has.
- * Returns whether it was the panel's, */
+/* Takes an event. `left` is where the panel begins, in pixels, `pixels` how many a unit of the window's coordinates
+ * has. Returns whether it was the panel's, */
 enum { VIEW_PANEL_LEAVES = 0, VIEW_PANEL_TAKES = 1, VIEW_PANEL_CLOSES = 2 /* or asks to close it */ };
 int view_panel_event(view_panel *p, const SDL_Event *event, float left, float pixels);
 
