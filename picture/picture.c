@@ -14,7 +14,7 @@
 
 enum { BAND_BYTES = 1 << 25, LEAST_BAND = 64 }; /* of planes; rows of pixels */
 
-typedef enum picture_state { NOTHING = 0, TILES, SCENE } picture_state; /* what has begun */
+typedef enum picture_state { NOTHING = 0, TILES, SCENE, BANDS } picture_state; /* what has begun, or is complete */
 
 struct cgt_picture {
     cgt_context *context;
@@ -26,7 +26,7 @@ struct cgt_picture {
     picture_looks looks;
     picture_state state;
     const cgt_scene *scene;
-    cgt_trace_options trace; /* of PLAIN, when it is read */
+    cgt_trace_options trace; /* of what is traced when it is read */
     char message[256];
 };
 
@@ -258,6 +258,13 @@ static cgt_result step_parts(cgt_picture *p, uint32_t samples)
     return result;
 }
 
+static void set_trace(cgt_picture *p, const cgt_trace_options *options)
+{
+    cgt_trace_options_init(&p->trace);
+    if (options)
+        p->trace = *options;
+}
+
 cgt_result cgt_picture_begin(cgt_picture *p, const cgt_scene *scene, const cgt_camera *camera, const cgt_look *looks,
                              uint32_t look_count, const cgt_trace_options *options)
 {
@@ -269,9 +276,7 @@ cgt_result cgt_picture_begin(cgt_picture *p, const cgt_scene *scene, const cgt_c
     if (result != CGT_OK)
         return result;
     p->scene = scene;
-    cgt_trace_options_init(&p->trace);
-    if (options)
-        p->trace = *options;
+    set_trace(p, options);
     p->state = SCENE;
     if (p->options.shading == CGT_SHADING_PLAIN)
         return CGT_OK;
@@ -285,26 +290,12 @@ cgt_result cgt_picture_step(cgt_picture *p, uint32_t samples, uint32_t *left)
 {
     if (!p || p->failed)
         return CGT_ERROR_INVALID_ARGUMENT;
-    if (p->state != SCENE)
+    if (p->state != SCENE && p->state != BANDS)
         return fail(p, CGT_ERROR_INVALID_ARGUMENT, "a picture takes steps after cgt_picture_begin");
-    const cgt_result result = step_parts(p, samples);
+    const cgt_result result = p->state == BANDS ? CGT_OK : step_parts(p, samples); /* bands have had all */
     if (left)
         *left = cgt_draw_samples(&p->opaque) - p->opaque.samples;
     return fail_drawing(p, result);
-}
-
-cgt_result cgt_picture_read(cgt_picture *p, const cgt_image *image)
-{
-    if (!p || p->failed)
-        return CGT_ERROR_INVALID_ARGUMENT;
-    if (p->state != SCENE || !image)
-        return fail(p, CGT_ERROR_INVALID_ARGUMENT, "a picture is read to an image, after cgt_picture_begin");
-    cgt_result result = cgt_picture_check_image(image, &p->options, &p->opaque.image, p->message, sizeof p->message);
-    if (result != CGT_OK)
-        return result;
-    result = p->options.shading == CGT_SHADING_PLAIN ? cgt_draw_tiles(&p->opaque, p->scene, &p->trace)
-                                                     : cgt_draw_shade(&p->opaque);
-    return tell_drawing(p, result);
 }
 
 /* Rows of pixels whose planes are some 32 MB, the bands as even as can be. */
@@ -319,8 +310,8 @@ static uint32_t band_rows(cgt_picture *p)
     return (rows + bands - 1) / bands;
 }
 
-/* Draws bands of rows one after the other, in the same memory. */
-static cgt_result draw_bands(cgt_picture *p, const cgt_trace_options *options)
+/* Draws bands of rows one after the other, in the same memory. One band alone can be read again. */
+static cgt_result draw_bands(cgt_picture *p)
 {
     const cgt_picture_work work = p->options.work;
     const uint32_t band = band_rows(p);
@@ -331,7 +322,7 @@ static cgt_result draw_bands(cgt_picture *p, const cgt_trace_options *options)
         p->options.work.row_count = work.row_count - done < band ? work.row_count - done : band;
         set_parts(p);
         move_planes(p, true);
-        result = trace_parts(p, options);
+        result = trace_parts(p, &p->trace);
         if (result == CGT_OK)
             result = step_parts(p, UINT32_MAX);
         if (result == CGT_OK)
@@ -341,7 +332,24 @@ static cgt_result draw_bands(cgt_picture *p, const cgt_trace_options *options)
     p->options.work = work;
     set_parts(p);
     atomic_store_explicit(&p->opaque.hits, hits, memory_order_relaxed);
-    return result;
+    p->state = band < work.row_count ? BANDS : SCENE;
+    return fail_drawing(p, result);
+}
+
+cgt_result cgt_picture_read(cgt_picture *p, const cgt_image *image)
+{
+    if (!p || p->failed)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    if ((p->state != SCENE && p->state != BANDS) || !image)
+        return fail(p, CGT_ERROR_INVALID_ARGUMENT, "a picture is read to an image, after cgt_picture_begin");
+    const cgt_result result =
+        cgt_picture_check_image(image, &p->options, &p->opaque.image, p->message, sizeof p->message);
+    if (result != CGT_OK)
+        return result;
+    if (p->state == BANDS)
+        return draw_bands(p);
+    return tell_drawing(p, p->options.shading == CGT_SHADING_PLAIN ? cgt_draw_tiles(&p->opaque, p->scene, &p->trace)
+                                                                   : cgt_draw_shade(&p->opaque));
 }
 
 cgt_result cgt_picture_draw(cgt_picture *p, const cgt_scene *scene, const cgt_camera *camera, const cgt_look *looks,
@@ -360,7 +368,8 @@ cgt_result cgt_picture_draw(cgt_picture *p, const cgt_scene *scene, const cgt_ca
     if (result != CGT_OK)
         return result;
     p->scene = scene;
-    return tell_drawing(p, draw_bands(p, options));
+    set_trace(p, options);
+    return draw_bands(p);
 }
 
 uint64_t cgt_picture_get_hits(const cgt_picture *p)

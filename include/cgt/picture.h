@@ -124,7 +124,8 @@ typedef struct cgt_picture_lighting {
     float sky;  /* light from all sides, which ambient occlusion dims: 0 or more */
     float head; /* light from the eye, without shadows: 0 or more */
     /* Rays of a pixel to the sky, at most CGT_PICTURE_MAX_RAYS; 0 (default): no ambient occlusion. The rays of
-     * antialiasing share them, rounded up: each has one at least. */
+     * antialiasing share them, rounded up: each has one at least. With antialias 4, pixels that go on as one ray take
+     * half as many more. */
     uint32_t ambient;
     float ambient_radius; /* what is farther off does not occlude; 0 (default): +infinity */
     /* Rays of a pixel to each light with a size, shared in the same way; as many at most; 0 (default): 8. */
@@ -241,7 +242,8 @@ CGT_API cgt_result cgt_picture_set_options(cgt_picture *picture, const cgt_pictu
 CGT_API size_t cgt_picture_get_error_message(const cgt_picture *picture, char *text, size_t size);
 
 /* Makes a whole picture: begin, all steps, read. Arguments and errors are theirs. With CGT_SHADING_FULL and without
- * statistics large ones are drawn by bands of rows, which touch some 32 MB of the memory; there is nothing to read then. */
+ * statistics large ones are drawn by bands of rows, which touch some 32 MB of the memory; to read such a picture once
+ * more draws it once more, for which the scene must stay committed. */
 CGT_API cgt_result cgt_picture_draw(cgt_picture *picture, const cgt_scene *scene, const cgt_camera *camera,
                                     const cgt_look *looks, uint32_t look_count, const cgt_image *image,
                                     const cgt_trace_options *options);

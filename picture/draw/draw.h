@@ -117,11 +117,12 @@ static inline int draw_has_whole(const cgt_picture_options *o)
 static inline const uint32_t *draw_rest(const drawing *d) { return d->whole ? d->rest_plane : d->primitive; }
 static inline uint32_t draw_whole_rays(const cgt_picture_options *o)
 {
-    return o->antialias == 2 ? 4
-                             : 24; /* of sixteen rays: half as much more, since theirs began at places of their own */
+    /* of sixteen rays half as many more, since theirs began at places of their own */
+    return o->antialias == 2 ? 4 : 24;
 }
 
-/* The same: finds them after the camera's rays and hard lights, those of layers, too; lays what they see on their rays, after each step. */
+/* The same: finds them after the camera's rays and hard lights, those of layers, too; lays what they see on their rays,
+ * after each step. */
 cgt_result cgt_draw_find_whole(drawing *d);
 cgt_result cgt_draw_spread_whole(drawing *d);
 
