@@ -64,8 +64,8 @@ int cgt_draw_init(drawing *d);
 void cgt_draw_set_options(drawing *d, const cgt_picture_options *options);
 void cgt_draw_free(drawing *d);
 
-/* Bytes of planes for each row of pixels; lets the planes' memory begin at a row of rays, so that a picture may be made by
- * bands of rows in the same small part of it, which stays in the caches and takes few pages. */
+/* Bytes of planes for each row of pixels; lets the planes' memory begin at a row of rays, so that a picture may be made
+ * by bands of rows in the same small part of it, which stays in the caches and takes few pages. */
 size_t cgt_draw_row_bytes(const drawing *d);
 void cgt_draw_move_planes(drawing *d, uint32_t first_row);
 
@@ -104,8 +104,8 @@ void cgt_draw_forget_light(drawing *d);
 /* The same: planes of u and v. Returns 0, or -1 where memory is missing. */
 int cgt_draw_make_uv(drawing *d);
 
-/* draw_whole.c: whether a picture of these options has planes for whole pixels, and whether there are any: outlines want
- * every ray. How many rays to the sky or to a light such a pixel takes for one of another ray. */
+/* draw_whole.c: whether a picture of these options has planes for whole pixels, and whether there are any: outlines
+ * want every ray. How many rays to the sky or to a light such a pixel takes for one of another ray. */
 static inline int draw_keeps_whole(const cgt_picture_options *o)
 {
     return o->shading == CGT_SHADING_FULL && o->antialias > 1;

@@ -47,8 +47,8 @@ static inline float most_of(int32_t below, int32_t right)
 
 /* ---- One ray ------------------------------------------------------------------------------------------------- */
 
-/* How much neighbour k of ray `own` counts: above 0 where it hits the same surface, `most` times what the cosine between
- * normals is above its least. Of triangles neighbours in the same plane count. */
+/* How much neighbour k of ray `own` counts: above 0 where it hits the same surface, `most` times what the cosine
+ * between normals is above its least. Of triangles neighbours in the same plane count. */
 static float weigh(const drawing *d, size_t own, size_t k, float most)
 {
     const int same = draw_look(d, d->geometry[own])->is_triangles

@@ -1,10 +1,11 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Whole pixels: those with antialiasing all of whose rays hit one sphere or capsule, in the same hard lights and of the
- * same colour, where that is nearly flat and no layer lies before it. There antialiasing has nothing to do: such a pixel goes on as one ray through
- * its centre, which takes the rays to the sky and to soft lights of all of them, and is averaged and shaded once. What
- * it sees is laid on its rays then, whose neighbours of other pixels average over it, too. */
+ * Whole pixels: those with antialiasing all of whose rays hit one sphere or capsule, in the same hard lights and of
+ * the same colour, where that is nearly flat and no layer lies before it. There antialiasing has nothing to do: such a
+ * pixel goes on as one ray through its centre, which takes the rays to the sky and to soft lights of all of them, and
+ * is averaged and shaded once. What it sees is laid on its rays then, whose neighbours of other pixels average over
+ * it, too. */
 #include <math.h>
 #include <string.h>
 

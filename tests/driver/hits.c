@@ -3,8 +3,8 @@
  *
  * hits [PROFILE [FIRST [SCENES [FAMILY]]]]
  * Runs a profile, or some scenes of each. Each scene depends on its number, its profile and CGT_TEST_SEED alone, so
- * that what fails is seen again by its number. Without SCENES it takes as many as the profile says, or two of each, times
- * CGT_TEST_SCALE; those of one profile must have been as hard as it says. */
+ * that what fails is seen again by its number. Without SCENES it takes as many as the profile says, or two of each,
+ * times CGT_TEST_SCALE; those of one profile must have been as hard as it says. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -392,8 +392,8 @@ static void widen(const oracle_primitive *p, int a, double ends[2])
     }
 }
 
-/* Around all that is hit, and no farther than rounding takes them, which may be infinity; triangles of little area may be
- * skipped. */
+/* Around all that is hit, and no farther than rounding takes them, which may be infinity; triangles of little area may
+ * be skipped. */
 static bool are_bounds(const judge_scene *s, const cgt_scene_statistics *st)
 {
     bool good = true;

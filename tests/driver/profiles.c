@@ -164,8 +164,8 @@ const driver_profile driver_profiles[] = {
      .ways = WAY_CHOSEN | WAY_CLUSTERS,
      .loads = 3,
      .shows = {{COUNT_HITS, COUNT_SCENES, 50}, {COUNT_BVH, COUNT_TRACED, 0.5}}},
-    /* rays at seams, silhouettes and axes of capsules, into them and out of them, and so slow ones that a near side lies
-     * below the range of float */
+    /* rays at seams, silhouettes and axes of capsules, into them and out of them, and so slow ones that a near side
+     * lies below the range of float */
     {.name = "capsules",
      .scenes = 408,
      .groups = {&capsule_scenes},

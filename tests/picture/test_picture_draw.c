@@ -89,7 +89,8 @@ static void add_walls(stage *s, float one, float other)
     s->settings.style.layer_count = 2;
 }
 
-/* A layer of next to no opacity before everything, of opaque geometries of mask 1: it changes nothing, but has each ray drawn. */
+/* A layer of next to no opacity before everything, of opaque geometries of mask 1: it changes nothing, but has each ray
+ * drawn. */
 static void add_clear_wall(stage *s)
 {
     const float corner[9] = {-40.0f, -20.0f, 15.0f, 40.0f, -20.0f, 15.0f, 0.0f, 60.0f, 15.0f};

@@ -182,8 +182,8 @@ CGT_SPU_INLINE void round_numbers(const cgt_primitive_array *a, uint32_t i, floa
     number[6] = q.r;
 }
 
-/* Spheres and capsules of any arrays: as above, but the lanes of a vector stay in registers. What one kind does not have
- * are numbers of others, which its loop does not use. */
+/* Spheres and capsules of any arrays: as above, but the lanes of a vector stay in registers. What one kind does not
+ * have are numbers of others, which its loop does not use. */
 CGT_SPU_INLINE void resolve_lookup_round(const cgt_primitives *prims, const packet *p, uint32_t first, uint32_t count,
                                          hit_primitives *w, packet_hits *hits)
 {
