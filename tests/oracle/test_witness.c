@@ -478,7 +478,7 @@ TEST(roots_and_order_by_rationals)
     static judge_scene s;
     static judge_ray ray[32];
     static witness w;
-    const uint32_t scenes = test_scaled(60);
+    const uint32_t scenes = test_scaled(40);
     for (uint32_t k = 0; k < driver_profile_count; k++) {
         const driver_profile *const profile = &driver_profiles[k];
         uint32_t families = 0;

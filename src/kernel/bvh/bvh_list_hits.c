@@ -218,7 +218,8 @@ void CGT_KERNEL(cgt_list_hits)(const cgt_committed_scene *committed_scene, bool 
         CGT_KERNEL(cgt_list_unusual)(committed_scene, use_bvh, lists, count, counts);
         return;
     }
-    cgt_hit_list **to = cgt_scratch_take(counts->scratch, (count < LIST_CHUNK ? count : LIST_CHUNK) * sizeof *to);
+    cgt_hit_list **to =
+        cgt_scratch_take(counts->scratch, (count < LIST_CHUNK ? count : LIST_CHUNK) * sizeof(cgt_hit_list *));
     for (uint32_t i = 0; i < count;) {
         const uint32_t room = count - i < LIST_CHUNK ? count - i : LIST_CHUNK;
         uint32_t fresh = 0, others = room;

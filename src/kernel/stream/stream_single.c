@@ -258,7 +258,7 @@ void CGT_KERNEL(cgt_stream_list_few)(stream *s, const uint32_t *list, uint32_t c
 
 void CGT_KERNEL(cgt_stream_list_turns)(stream *s, const uint32_t *list, uint32_t count)
 {
-    cgt_hit_list **to = cgt_scratch_take(s->call.counts->scratch, count * sizeof *to);
+    cgt_hit_list **to = cgt_scratch_take(s->call.counts->scratch, count * sizeof(cgt_hit_list *));
     for (uint32_t i = 0; i < count; i++)
         to[i] = s->list[list[i] / STREAM_RECORD];
     CGT_KERNEL(cgt_list_turns)(s->call.committed_scene, to, count, s->call.counts);
