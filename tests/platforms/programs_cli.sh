@@ -36,7 +36,7 @@ if [ "$render" != none ]; then
     program=$render name=cgt-render
     run 0 -q -s 32x18 -a 2 -o - in.xyz
     cp "$tmp/stdout" "$tmp/raw"
-    sum raw 2976862229 1728
+    sum raw 1428439204 1728
     run 0 -q -s 32x18 -o 'a/b/%02d.png' in.xyz
     [ "$(head -c 4 "$tmp/a/b/00.png" | tail -c 3)" = PNG ] || fail "no PNG"
     (cd "$tmp" && $emulator "$program" -q -s 32x18 --format xyz -o - - <in.xyz >pipe.raw 2>/dev/null) || fail "a pipe"
