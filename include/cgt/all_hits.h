@@ -60,7 +60,7 @@ typedef struct cgt_hit_rows {
  *   all       NULL: the defaults
  *   rows      gets the hits
  *   options   NULL: the defaults. Its statistics count hits, not rays that have some
- * Speed:   four hits of rays in no order take about twice as long as the nearest one; of neighbours, 4 to 5 times
+ * Speed:   four hits of rays in no order take up to twice as long as the nearest one; of neighbours, 2.5 to 4 times
  * Errors:  as cgt_trace_rays; INVALID_ARGUMENT (capacity, or no count) */
 CGT_API cgt_result cgt_trace_all_rays(const cgt_scene *scene, const cgt_rays *rays, const cgt_all_hits_options *all,
                                       const cgt_hit_rows *rows, const cgt_trace_options *options);
