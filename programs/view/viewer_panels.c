@@ -105,11 +105,13 @@ static void draw_status(viewer *v, const view_frames_state *s)
             snprintf(state, sizeof state, "  %.0f pictures/s", 1e3 / v->frame_ms);
         if (v->movie.is_made)
             snprintf(state, sizeof state, "  movie: %llu frames", (unsigned long long)v->movie.frames);
-        snprintf(line[0], sizeof line[0], "%s %llu of %llu%s%s%s   %sh: help", v->playing ? "playing" : "frame",
+        char text[256];
+        snprintf(text, sizeof text, "%s %llu of %llu%s%s%s   %sh: help", v->playing ? "playing" : "frame",
                  (unsigned long long)f->number, (unsigned long long)s->count, s->is_final ? "" : "+", time, state,
                  !v->is_new ? ""
                  : v->panel ? "drag: turn   click: ask   o: options   "
                             : "drag: turn   click: ask   ");
+        snprintf(line[0], sizeof line[0], "%.127s", text);
     }
     panel(v, 6.0f * v->scale, (s->count > 1 ? bar_top(v) : (float)v->height) - 32.0f * v->scale, 0,
           (const char(*)[128])line, 1, -1);
