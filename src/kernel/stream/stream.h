@@ -96,15 +96,21 @@ CGT_SPU_INLINE void stream_set_occluded(stream *s, uint32_t offset)
     s->updates++;
 }
 
+/* Stores where a ray ends from now on. */
+CGT_SPU_INLINE void stream_set_end(stream *s, uint32_t offset, float far)
+{
+    s->best[offset / STREAM_RECORD].high = far;
+    stream_record(s, offset)[RECORD_FAR] = stream_record(s, offset)[RECORD_LEAF_FAR] = far;
+    s->updates++;
+}
+
 /* Stores a ray's best hit. */
 CGT_SPU_INLINE void stream_set_best(stream *s, uint32_t offset, float low, float high, uint32_t prim)
 {
     best_hit *b = &s->best[offset / STREAM_RECORD];
     b->low = low;
-    b->high = high;
     b->prim = prim;
-    stream_record(s, offset)[RECORD_FAR] = stream_record(s, offset)[RECORD_LEAF_FAR] = high;
-    s->updates++;
+    stream_set_end(s, offset, high);
 }
 
 /* Loads a record as a single ray, without its slabs. */
@@ -153,7 +159,7 @@ void CGT_KERNEL(cgt_stream_trace_few)(stream *s, const uint32_t *list, uint32_t 
 void CGT_KERNEL(cgt_stream_trace_unusual)(stream *s, const uint32_t *list, uint32_t count);
 void CGT_KERNEL(cgt_stream_interleave)(stream *s, const uint32_t *list, uint32_t count);
 
-/* The same of rays with lists (stream_lists.c): those of a list through a subtree; and whole ones, which take turns. */
+/* The same of rays with lists (query/hit_list.h): those of a list through a subtree; and whole ones, which take turns. */
 void CGT_KERNEL(cgt_stream_list_few)(stream *s, const uint32_t *list, uint32_t count, uint32_t code);
 void CGT_KERNEL(cgt_stream_list_turns)(stream *s, const uint32_t *list, uint32_t count);
 

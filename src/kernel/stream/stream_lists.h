@@ -57,10 +57,8 @@ CGT_SPU_INLINE void leaf_list_store(stream *s, const leaf_rays *r)
         return;
     spux_store(far, r->far);
     for (; shorter; shorter &= shorter - 1) {
-        const uint32_t k = (uint32_t)__builtin_ctz(shorter), offset = r->offset[k];
-        float *const d = stream_record(s, offset);
-        s->best[offset / STREAM_RECORD].high = d[RECORD_FAR] = d[RECORD_LEAF_FAR] = far[k];
-        s->updates++;
+        const uint32_t k = (uint32_t)__builtin_ctz(shorter);
+        stream_set_end(s, r->offset[k], far[k]);
     }
 }
 

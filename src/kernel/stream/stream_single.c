@@ -243,16 +243,14 @@ void CGT_KERNEL(cgt_stream_list_few)(stream *s, const uint32_t *list, uint32_t c
     list_query q;
     q.call = &s->call;
     for (uint32_t i = 0; i < count; i++) {
-        float *const d = stream_record(s, list[i]);
+        const float *const d = stream_record(s, list[i]);
         q.list = s->list[list[i] / STREAM_RECORD];
         stream_ray_load(s, list[i], false, &q.ray);
         bvh_ray_set_slabs(&s->call, d + RECORD_RDIR, s->slab_error, &q.ray);
         list_start(&q, code);
         CGT_KERNEL(cgt_list_finish)(&q);
-        if (q.ray.far == d[RECORD_FAR])
-            continue;
-        s->best[list[i] / STREAM_RECORD].high = d[RECORD_FAR] = d[RECORD_LEAF_FAR] = q.ray.far;
-        s->updates++;
+        if (q.ray.far != d[RECORD_FAR])
+            stream_set_end(s, list[i], q.ray.far);
     }
 }
 
