@@ -13,6 +13,12 @@
 #include "picture/files/image_write.h"
 #include "view/view_draw.h"
 
+static const char *next_line(const char *line)
+{
+    const size_t length = strcspn(line, "\n");
+    return line + length + (line[length] == '\n');
+}
+
 /* Those of the command line that are not the figure's, those of the figure, and the origin that was found. */
 char *view_draw_settings(const view_draw *d)
 {
@@ -20,12 +26,10 @@ char *view_draw_settings(const view_draw *d)
     size_t size = 0;
     char *const chosen = view_draw_get(d, cgt_figure_get_chosen, NULL);
     FILE *const to = chosen ? open_memstream(&text, &size) : NULL;
-    for (const char *line = d->options.settings; to && *line;) {
-        const size_t length = strcspn(line, "\n");
+    for (const char *line = d->options.settings; to && *line; line = next_line(line)) {
         snprintf(name, sizeof name, "%.*s", (int)strcspn(line, " \n"), line);
         if (!cgt_figure_find_row(name))
-            fprintf(to, "%.*s\n", (int)length, line);
-        line += length + (line[length] == '\n');
+            fprintf(to, "%.*s\n", (int)strcspn(line, "\n"), line);
     }
     if (to && d->has_moved)
         fprintf(to, "origin = %.17g,%.17g,%.17g\n", d->origin[0], d->origin[1], d->origin[2]);
@@ -39,15 +43,14 @@ char *view_draw_settings(const view_draw *d)
     return NULL;
 }
 
-/* "name = value" becomes --name=value, as 0 ends it; returns the next line. */
-static const char *print_option(FILE *to, const char *line)
+/* "name = value" becomes --name=value, as 0 ends it. */
+static void print_option(FILE *to, const char *line)
 {
     const size_t length = strcspn(line, "\n"), name = strcspn(line, " \n");
     fprintf(to, "--%.*s", (int)name, line);
     if (length > name + 3)
         fprintf(to, "=%.*s", (int)(length - name - 3), line + name + 3);
     putc('\0', to);
-    return line + length + (line[length] == '\n');
 }
 
 /* What was printed; NULL with the message printed. */
@@ -65,8 +68,8 @@ char *view_command_arguments(const char *settings)
     char *text = NULL;
     size_t size = 0;
     FILE *const to = open_memstream(&text, &size);
-    while (to && *settings)
-        settings = print_option(to, settings);
+    for (; to && *settings; settings = next_line(settings))
+        print_option(to, settings);
     if (to)
         putc('\0', to);
     return end_text(to, &text);
@@ -129,12 +132,6 @@ static void print_value(FILE *to, const char *line)
         print_string(to, line + name + 3, length - name - 3);
     else
         fputs("True", to);
-}
-
-static const char *next_line(const char *line)
-{
-    const size_t length = strcspn(line, "\n");
-    return line + length + (line[length] == '\n');
 }
 
 /* A keyword, with all values of the lines of its name that follow. */
