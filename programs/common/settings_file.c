@@ -148,6 +148,26 @@ char *settings_read_figure(const char *path, int without_size, char *left_out, s
     return NULL;
 }
 
+/* ---- Lines -------------------------------------------------------------------------------------------------- */
+
+const char *settings_next_line(const char *line)
+{
+    const size_t length = strcspn(line, "\n");
+    return line + length + (line[length] == '\n');
+}
+
+size_t settings_name_length(const char *line) { return strcspn(line, " \n"); }
+
+void settings_print_part(FILE *to, const char *lines, int of_figure)
+{
+    char name[64];
+    for (const char *line = lines; *line; line = settings_next_line(line)) {
+        snprintf(name, sizeof name, "%.*s", (int)settings_name_length(line), line);
+        if ((cgt_figure_find_row(name) != NULL) == of_figure)
+            fprintf(to, "%.*s\n", (int)strcspn(line, "\n"), line);
+    }
+}
+
 /* ---- Writing ------------------------------------------------------------------------------------------------ */
 
 int settings_write(const char *path, const char *lines, char *error, size_t size)

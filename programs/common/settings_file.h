@@ -11,6 +11,7 @@
 #define SETTINGS_FILE_H
 
 #include <stddef.h>
+#include <stdio.h>
 
 #include "options/option_row.h"
 
@@ -30,6 +31,11 @@ int settings_check(const option_row *row, const char *value, void *options, char
  *   left_out       gets the names of the others, which are of files or a program, with ", " between them; "": none */
 char *settings_read_figure(const char *path, int without_size, char *left_out, size_t left_out_size, char *error,
                            size_t error_size);
+
+/* Of such lines: the next one; the letters of a line's name; those whose names are a figure's options, or all others. */
+const char *settings_next_line(const char *line);
+size_t settings_name_length(const char *line);
+void settings_print_part(FILE *to, const char *lines, int of_figure);
 
 /* Writes a file of lines "name = value", whole or not at all. Returns 0, or -1 with a sentence. */
 int settings_write(const char *path, const char *lines, char *error, size_t error_size);

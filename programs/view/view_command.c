@@ -9,28 +9,20 @@
 #include <string.h>
 
 #include "common/program.h"
+#include "common/settings_file.h"
 #include "options/option_row.h"
 #include "picture/files/image_write.h"
 #include "view/view_draw.h"
 
-static const char *next_line(const char *line)
-{
-    const size_t length = strcspn(line, "\n");
-    return line + length + (line[length] == '\n');
-}
-
 /* Those of the command line that are not the figure's, those of the figure, and the origin that was found. */
 char *view_draw_settings(const view_draw *d)
 {
-    char *text = NULL, name[64];
+    char *text = NULL;
     size_t size = 0;
     char *const chosen = view_draw_get(d, cgt_figure_get_chosen, NULL);
     FILE *const to = chosen ? open_memstream(&text, &size) : NULL;
-    for (const char *line = d->options.settings; to && *line; line = next_line(line)) {
-        snprintf(name, sizeof name, "%.*s", (int)strcspn(line, " \n"), line);
-        if (!cgt_figure_find_row(name))
-            fprintf(to, "%.*s\n", (int)strcspn(line, "\n"), line);
-    }
+    if (to)
+        settings_print_part(to, d->options.settings, 0);
     if (to && d->has_moved)
         fprintf(to, "origin = %.17g,%.17g,%.17g\n", d->origin[0], d->origin[1], d->origin[2]);
     if (to)
@@ -46,7 +38,7 @@ char *view_draw_settings(const view_draw *d)
 /* "name = value" becomes --name=value, as 0 ends it. */
 static void print_option(FILE *to, const char *line)
 {
-    const size_t length = strcspn(line, "\n"), name = strcspn(line, " \n");
+    const size_t length = strcspn(line, "\n"), name = settings_name_length(line);
     fprintf(to, "--%.*s", (int)name, line);
     if (length > name + 3)
         fprintf(to, "=%.*s", (int)(length - name - 3), line + name + 3);
@@ -68,7 +60,7 @@ char *view_command_arguments(const char *settings)
     char *text = NULL;
     size_t size = 0;
     FILE *const to = open_memstream(&text, &size);
-    for (; to && *settings; settings = next_line(settings))
+    for (; to && *settings; settings = settings_next_line(settings))
         print_option(to, settings);
     if (to)
         putc('\0', to);
@@ -127,7 +119,7 @@ static void print_string(FILE *to, const char *text, size_t length)
 /* The value of a line, or True. */
 static void print_value(FILE *to, const char *line)
 {
-    const size_t length = strcspn(line, "\n"), name = strcspn(line, " \n");
+    const size_t length = strcspn(line, "\n"), name = settings_name_length(line);
     if (length > name + 3)
         print_string(to, line + name + 3, length - name - 3);
     else
@@ -137,13 +129,13 @@ static void print_value(FILE *to, const char *line)
 /* A keyword, with all values of the lines of its name that follow. */
 static void print_keyword(FILE *to, const char *line, int repeats)
 {
-    const size_t name = strcspn(line, " \n");
+    const size_t name = settings_name_length(line);
     for (size_t i = 0; i < name; i++)
         putc(line[i] == '-' ? '_' : line[i], to);
     fputs(repeats ? "=[" : "=", to);
     print_value(to, line);
-    for (const char *next = next_line(line); repeats && *next; next = next_line(next))
-        if (strcspn(next, " \n") == name && strncmp(next, line, name) == 0) {
+    for (const char *next = settings_next_line(line); repeats && *next; next = settings_next_line(next))
+        if (settings_name_length(next) == name && strncmp(next, line, name) == 0) {
             fputs(", ", to);
             print_value(to, next);
         }
@@ -154,9 +146,9 @@ static void print_keyword(FILE *to, const char *line, int repeats)
 /* Whether a line before this one has its name. */
 static int is_told(const char *settings, const char *line)
 {
-    const size_t name = strcspn(line, " \n");
-    for (const char *before = settings; before < line; before = next_line(before))
-        if (strcspn(before, " \n") == name && strncmp(before, line, name) == 0)
+    const size_t name = settings_name_length(line);
+    for (const char *before = settings; before < line; before = settings_next_line(before))
+        if (settings_name_length(before) == name && strncmp(before, line, name) == 0)
             return 1;
     return 0;
 }
@@ -200,8 +192,8 @@ char *view_command_python(const view_draw *d, const char *settings, uint64_t num
         fputs("]", to);
         print_reading(to, d);
         fputs(")\nfigure = cgt.Figure(", to);
-        for (const char *line = settings; *line; line = next_line(line)) {
-            snprintf(name, sizeof name, "%.*s", (int)strcspn(line, " \n"), line);
+        for (const char *line = settings; *line; line = settings_next_line(line)) {
+            snprintf(name, sizeof name, "%.*s", (int)settings_name_length(line), line);
             const option_row *const row = cgt_figure_find_row(name);
             if (!row || is_told(settings, line))
                 continue;

@@ -18,24 +18,20 @@
 
 /* ---- Settings ----------------------------------------------------------------------------------------------- */
 
-static size_t name_length(const char *line) { return strcspn(line, " \n"); }
-
 static int is_named(const char *line, const char *name)
 {
-    return name_length(line) == strlen(name) && strncmp(line, name, strlen(name)) == 0;
+    return settings_name_length(line) == strlen(name) && strncmp(line, name, strlen(name)) == 0;
 }
 
 /* Lines that begin with any of the names; or all others. */
 static void print_lines(FILE *to, const char *lines, const char *const *names, int others)
 {
-    for (const char *line = lines; *line;) {
-        const size_t length = strcspn(line, "\n");
+    for (const char *line = lines; *line; line = settings_next_line(line)) {
         int is_one = 0;
         for (size_t i = 0; names[i]; i++)
             is_one |= is_named(line, names[i]);
         if (is_one != others)
-            fprintf(to, "%.*s\n", (int)length, line);
-        line += length + (line[length] == '\n');
+            fprintf(to, "%.*s\n", (int)strcspn(line, "\n"), line);
     }
 }
 
@@ -43,14 +39,11 @@ static void print_lines(FILE *to, const char *lines, const char *const *names, i
 static void print_own(FILE *to, const viewer *v, int is_same)
 {
     static const char *const of_writing[] = {"rate", "quality", NULL};
-    char name[64];
-    for (const char *line = v->options.render.settings; line && *line;) {
-        const size_t length = strcspn(line, "\n");
-        snprintf(name, sizeof name, "%.*s", (int)name_length(line), line);
-        if (!cgt_figure_find_row(name) && (is_same || is_named(line, of_writing[0]) || is_named(line, of_writing[1])))
-            fprintf(to, "%.*s\n", (int)length, line);
-        line += length + (line[length] == '\n');
-    }
+    const char *const lines = v->options.render.settings;
+    if (lines && is_same)
+        settings_print_part(to, lines, 0);
+    else if (lines)
+        print_lines(to, lines, of_writing, 0);
 }
 
 /* ---- Opening ------------------------------------------------------------------------------------------------ */
@@ -124,16 +117,10 @@ static int open_by(viewer *v, char *paths, char *settings, int is_same, int keep
     o.render.settings = settings;
     char *const of_figure = settings ? calloc(strlen(settings) + 1, 1) : NULL;
     FILE *const to = of_figure && *settings ? fmemopen(of_figure, strlen(settings) + 1, "w") : NULL;
-    for (const char *line = settings; to && *line;) {
-        char name[64];
-        const size_t length = strcspn(line, "\n");
-        snprintf(name, sizeof name, "%.*s", (int)name_length(line), line);
-        if (cgt_figure_find_row(name))
-            fprintf(to, "%.*s\n", (int)length, line);
-        line += length + (line[length] == '\n');
-    }
-    if (to)
+    if (to) {
+        settings_print_part(to, settings, 1);
         fclose(to);
+    }
     cgt_figure_options_init(&o.render.figure);
     int failed = !next.inputs || !count || !of_figure ||
                  cgt_figure_settings_change(&next.settings, SETTINGS_LINES, NULL, of_figure, &o.render.figure, error,
@@ -262,10 +249,9 @@ int viewer_read_by(viewer *v, const char *name, const char *values)
     FILE *const to = lines ? open_memstream(&text, &size) : NULL;
     if (to)
         print_lines(to, lines, names, 1);
-    for (const char *value = values; to && *value;) {
+    for (const char *value = values; to && *value; value = settings_next_line(value)) {
         const size_t length = strcspn(value, "\n");
         fprintf(to, length ? "%s = %.*s\n" : "%s%.*s\n", name, (int)length, value);
-        value += length + (value[length] == '\n');
     }
     const int failed = !to || fclose(to) || open_lines(v, NULL, text, 1);
     free(text);
