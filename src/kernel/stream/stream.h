@@ -159,7 +159,7 @@ void CGT_KERNEL(cgt_stream_trace_few)(stream *s, const uint32_t *list, uint32_t 
 void CGT_KERNEL(cgt_stream_trace_unusual)(stream *s, const uint32_t *list, uint32_t count);
 void CGT_KERNEL(cgt_stream_interleave)(stream *s, const uint32_t *list, uint32_t count);
 
-/* The same of rays with lists (query/hit_list.h): those of a list through a subtree; and whole ones, which take turns. */
+/* The same of rays with lists (query/hit_list.h): those of a list through a subtree; and whole ones, by turns. */
 void CGT_KERNEL(cgt_stream_list_few)(stream *s, const uint32_t *list, uint32_t count, uint32_t code);
 void CGT_KERNEL(cgt_stream_list_turns)(stream *s, const uint32_t *list, uint32_t count);
 
