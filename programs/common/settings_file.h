@@ -32,7 +32,7 @@ int settings_check(const option_row *row, const char *value, void *options, char
 char *settings_read_figure(const char *path, int without_size, char *left_out, size_t left_out_size, char *error,
                            size_t error_size);
 
-/* Of such lines: the next one; the letters of a line's name; those whose names are a figure's options, or the others. */
+/* Of such lines: the next; the letters of a line's name; those whose names are a figure's options, or the others. */
 const char *settings_next_line(const char *line);
 size_t settings_name_length(const char *line);
 void settings_print_part(FILE *to, const char *lines, int of_figure);
