@@ -51,11 +51,10 @@ int view_draw_has(const view_draw *d, const char *name);
  * printed. */
 char *view_draw_settings(const view_draw *d);
 
-/* view_command.c: the command line of cgt-render, and Python, that make the picture of frame `number`; the options of
- * such a command line, each ended by 0, and an empty one. The caller frees them; NULL with the message printed. */
-char *view_command(const view_draw *d, const char *settings, uint64_t number, const char *pattern);
-char *view_command_python(const view_draw *d, const char *settings, uint64_t number);
-char *view_command_arguments(const char *settings);
+/* view_command.c: the command line of cgt-render, and Python, that make a frame's picture. The caller frees them; NULL
+ * with the message printed. */
+char *view_command(const view_draw *d, const char *settings, const view_frame *frame, const char *pattern);
+char *view_command_python(const view_draw *d, const char *settings, const view_frame *frame);
 
 /* Draws and writes that picture to `path`, which the pattern names. */
 int view_draw_write(view_draw *d, const char *settings, const char *path);

@@ -154,6 +154,7 @@ static int read_frame(view_frames *f, uint64_t chosen, view_frame **frame, char 
     *read = (view_frame){.frame = *cgt_figure_frame_get_data(kept),
                          .kept = kept,
                          .chosen = chosen,
+                         .lead = f->lead,
                          .bytes = sizeof *read + cgt_figure_frame_get_bytes(kept)};
     *frame = read;
     return 1;

@@ -15,6 +15,7 @@ typedef struct view_frame {
     cgt_trajectory_frame frame; /* with the arrays of: */
     cgt_figure_frame *kept;     /* for the figure */
     uint64_t chosen;            /* which of the chosen frames */
+    uint64_t lead;              /* frames of the file before it that belong to its picture */
     size_t bytes;
     int pins;
 } view_frame;

@@ -13,6 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "common/picture_lines.h"
 #include "system/system.h"
 
 enum { MOST_ARGUMENTS = 4096 };
@@ -52,7 +53,7 @@ static int start(viewer *v, char *settings, float turn)
     const char *argv[MOST_ARGUMENTS];
     char renderer[4096], text[6][128];
     size_t count = 0;
-    char *const lines = view_command_arguments(settings);
+    char *const lines = picture_lines_options(settings);
     find_renderer(renderer, sizeof renderer);
     argv[count++] = renderer;
     for (char *line = lines; line && *line && count + o->input_count + 16 < MOST_ARGUMENTS;) {

@@ -52,7 +52,7 @@ void viewer_write_picture(viewer *v)
         return;
     char *const settings = view_draw_settings(v->draw);
     if (settings && view_draw_write(v->draw, settings, name) == 0) {
-        char *const command = view_command(v->draw, settings, v->shown->frame.number, pattern);
+        char *const command = view_command(v->draw, settings, v->shown, pattern);
         printf("%s", command ? command : "");
         fflush(stdout);
         free(command);
@@ -191,7 +191,7 @@ void viewer_copy_command(viewer *v)
 {
     char *const settings = settings_of_picture(v);
     if (settings)
-        copy(v, view_command(v->draw, settings, v->shown->frame.number, v->options.pictures),
+        copy(v, view_command(v->draw, settings, v->shown, v->options.pictures),
              "the command line of the picture is");
     free(settings);
 }
@@ -200,6 +200,6 @@ void viewer_copy_python(viewer *v)
 {
     char *const settings = settings_of_picture(v);
     if (settings)
-        copy(v, view_command_python(v->draw, settings, v->shown->frame.number), "Python for the picture is");
+        copy(v, view_command_python(v->draw, settings, v->shown), "Python for the picture is");
     free(settings);
 }

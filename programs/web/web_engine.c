@@ -252,12 +252,17 @@ static int survey_file(void)
     return survey.frames ? 0 : web_fail("the file has no frame");
 }
 
+cgt_trajectory_options web_reading(void)
+{
+    return (cgt_trajectory_options){
+        .threads = 1, .all_bonds = true, .leave_out_sites = true, .topology = web.files.topology};
+}
+
 /* With a figure of its own, which has the settings. Its first frame that has something is the one that is drawn. */
 static int open_files(const char *settings)
 {
     const web_files *const files = &web.files;
-    const cgt_trajectory_options options = {
-        .threads = 1, .all_bonds = true, .leave_out_sites = true, .topology = files->topology};
+    const cgt_trajectory_options options = web_reading();
     const size_t kept = 64 << 20; /* bytes of frames, which are not read again */
     cgt_figure *figure;
     close_file();
@@ -286,10 +291,9 @@ static int open_files(const char *settings)
 }
 
 /* Takes the names of a run's files, a line each, and those of its topology and of a mesh, "" for none. */
-static int take_names(const char *run, const char *topology, const char *mesh)
+static int take_names(web_files *f, const char *run, const char *topology, const char *mesh)
 {
     const size_t length[3] = {strlen(run) + 1, strlen(topology) + 1, strlen(mesh) + 1};
-    web_files *const f = &web.files;
     free(f->names);
     *f = (web_files){.names = malloc(length[0] + length[1] + length[2])};
     if (!f->names)
@@ -309,6 +313,12 @@ static int take_names(const char *run, const char *topology, const char *mesh)
     return f->count ? 0 : web_fail("there is no file");
 }
 
+/* How the user names the files that are opened next. */
+EMSCRIPTEN_KEEPALIVE int web_name(const char *run, const char *topology, const char *mesh)
+{
+    return take_names(&web.given, run, topology, mesh);
+}
+
 /* Opens files. Options that do not fit them are left out, but for size and style. */
 EMSCRIPTEN_KEEPALIVE int web_open(const char *run, const char *topology, const char *mesh)
 {
@@ -319,7 +329,7 @@ EMSCRIPTEN_KEEPALIVE int web_open(const char *run, const char *topology, const c
         if (cgt_figure_get(web.figure, kept[i], why, sizeof why))
             snprintf(few + strlen(few), sizeof few - strlen(few), "%s = %.32s", kept[i], why);
     web_forget_run();
-    int failed = settings ? take_names(run, topology, mesh) : web_fail("out of memory for options");
+    int failed = settings ? take_names(&web.files, run, topology, mesh) : web_fail("out of memory for options");
     if (failed)
         close_file();
     else if (open_files(settings) && !(failed = strlen(settings) <= strlen(few))) {
@@ -338,15 +348,12 @@ EMSCRIPTEN_KEEPALIVE uint32_t web_frames(void) { return (uint32_t)web.frames; }
 /* How many frames before one it needs. */
 EMSCRIPTEN_KEEPALIVE uint32_t web_lead(void) { return (uint32_t)web.lead; }
 
-/* What is subtracted from places, as three numbers with commas; "": nothing. */
-EMSCRIPTEN_KEEPALIVE const char *web_origin(void)
+int web_get_origin(double origin[3])
 {
-    double o[3] = {0.0};
+    memset(origin, 0, 3 * sizeof *origin);
     if (web.file.file)
-        cgt_trajectory_get_origin(web.file.file, o);
-    const int is_moved = o[0] != 0.0 || o[1] != 0.0 || o[2] != 0.0;
-    snprintf(web.message, sizeof web.message, is_moved ? "%.17g, %.17g, %.17g" : "", o[0], o[1], o[2]);
-    return web.message;
+        cgt_trajectory_get_origin(web.file.file, origin);
+    return origin[0] != 0.0 || origin[1] != 0.0 || origin[2] != 0.0;
 }
 
 EMSCRIPTEN_KEEPALIVE int web_has_triangles(void)

@@ -111,7 +111,8 @@ function createFiles({unpack, openRun, openSettings, say, told}) {
                 bytes = framesOfObj(new TextDecoder().decode(bytes));
                 name = name.replace(/obj$/i, 'frames');
             }
-            return {name: name.replace(/[/\0\n]/g, '_').replace(/^-$/, '_'), bytes, doubt, isMesh, given};
+            return {name: name.replace(/[/\0\n]/g, '_').replace(/^-$/, '_'), bytes, doubt, isMesh,
+                    given: given.replace(/\n/g, '_')};
         } catch (error) {
             throw new Error(`${name}: ${reason(error)}`);
         }
@@ -131,7 +132,7 @@ function createFiles({unpack, openRun, openSettings, say, told}) {
                 openRun({name: found.run[0].name, count: found.run.length, files, run: found.run.map(nameOf),
                          topology: nameOf(found.topology), mesh: nameOf(found.mesh),
                          doubt: files.map((f) => f.doubt).find((doubt) => doubt) || '',
-                         given: {names: found.run.map((f) => f.given), topology: (found.topology || {given: ''}).given,
+                         given: {run: found.run.map((f) => f.given), topology: (found.topology || {given: ''}).given,
                                  mesh: (found.mesh || {given: ''}).given}});
             }
             if (found.settings)

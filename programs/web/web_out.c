@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "camera/camera_path.h"
+#include "common/picture_lines.h"
 #include "common/settings_file.h"
 #include "figure_state.h"
 #include "web/web_state.h"
@@ -30,6 +31,53 @@ EMSCRIPTEN_KEEPALIVE const char *web_settings(void)
         cgt_figure_get_chosen(web.figure, NULL, web.told, length + 1);
     return web.told;
 }
+
+/* Those settings with files that are options of cgt-render; NULL: no memory. */
+static char *settings_with_files(void)
+{
+    const web_files *const f = &web.given;
+    const char *const chosen = web_settings();
+    char *text = NULL;
+    size_t size = 0;
+    FILE *const to = chosen ? open_memstream(&text, &size) : NULL;
+    if (to && f->topology)
+        fprintf(to, "topology = %s\n", f->topology);
+    if (to && f->mesh)
+        fprintf(to, "mesh = %s\n", f->mesh);
+    if (to)
+        fputs(chosen, to);
+    if (to && fclose(to) == 0)
+        return text;
+    free(text);
+    return NULL;
+}
+
+static char *tell_lines(char *(*tell)(const picture_lines *p))
+{
+    cgt_trajectory_options reading = web_reading();
+    double origin[3];
+    char *const settings = settings_with_files();
+    reading.topology = web.given.topology;
+    reading.all_bonds = reading.leave_out_sites = !web_has_triangles();
+    const picture_lines p = {.settings = settings,
+                             .inputs = web.given.run,
+                             .input_count = web.given.count,
+                             .mesh = web.given.mesh,
+                             .reading = &reading,
+                             .origin = web_get_origin(origin) ? origin : NULL,
+                             .number = web_frame(),
+                             .lead = web.lead,
+                             .output = "picture.png"};
+    free(web.lines);
+    web.lines = settings && web.shown ? tell(&p) : NULL;
+    free(settings);
+    return web.lines;
+}
+
+/* The command line of cgt-render, and Python, that make the picture that is shown; NULL: no memory, or no file is
+ * open. */
+EMSCRIPTEN_KEEPALIVE const char *web_command(void) { return tell_lines(picture_lines_command); }
+EMSCRIPTEN_KEEPALIVE const char *web_python(void) { return tell_lines(picture_lines_python); }
 
 /* Takes the options of a settings file, but for the size, in place of all that are set. What is refused changes
  * nothing. Returns 0, or -1; the message names options that are not the page's, "": none. */

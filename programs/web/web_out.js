@@ -5,40 +5,9 @@
 /* exported createOut */
 function createOut({send, say, openSettings, page}) {
     const $ = (id) => document.getElementById(id);
-    let run = null, frame = 0, lead = 0, settings = '';
+    let frames = 0, settings = '';
 
     // ---- The same by others -----------------------------------------------------------------------------------------
-
-    // Settings as [name, value]; value undefined: none.
-    const rows = () => settings.split('\n').filter((line) => line).map((line) => line.split(/ = (.*)/).slice(0, 2));
-    const quote = (text) => /^[\w.,:/=+-]+$/.test(text) ? text : `'${text.replace(/'/g, `'\\''`)}'`;
-    const pathOf = (name) => name.startsWith('-') ? './' + name : name;
-
-    function commandLine() {
-        const options = rows().map(([name, value]) => `--${name}` + (value === undefined ? '' : `=${value}`));
-        const words = ['cgt-render', ...options,
-            `--first=${frame}`, `--last=${frame}`, ...(run.topology ? [`--topology=${pathOf(run.topology)}`] : []),
-            ...(run.mesh ? [`--mesh=${pathOf(run.mesh)}`] : []), '-o', 'picture.png', ...run.names.map(pathOf)];
-        return words.map(quote).join(' ');
-    }
-
-    function pythonLines() {
-        const options = new Map(), text = JSON.stringify; // whose strings are Python's, too
-        for (const [name, value] of rows())
-            options.set(name, [...(options.get(name) || []), value === undefined ? 'True' : text(value)]);
-        const keywords = [...options].map(([name, values]) =>
-            `    ${name.replace(/-/g, '_')}=${values.length > 1 ? `[${values.join(', ')}]` : values[0]},\n`).join('');
-        const [name, ...more] = run.names.map(text);
-        const paths = more.length ? `cgt.sort_series([${[name, ...more].join(', ')}])` : name;
-        const topology = run.topology ? `, topology=${text(run.topology)}` : '';
-        const spheres = run.kind === 'spheres' ? ', all_bonds=True, leave_out_sites=True' : '';
-        const origin = run.origin ? `, origin=(${run.origin})` : '';
-        return `import cgt\n\nrun = cgt.read(${paths}${topology}${spheres}${origin})\n` +
-            `figure = cgt.Figure(\n${keywords})\n` +
-            (run.mesh ? `figure.set_mesh(cgt.read(${text(run.mesh)})[0])\n` : '') +
-            `figure.survey(run)\nfor frame in run[${Math.max(0, frame - lead)}:${frame + 1}]:\n` +
-            `    figure.show(frame)\nfigure.save("picture.png")\n`;
-    }
 
     function copy(from, button) {
         const done = () => {
@@ -94,7 +63,7 @@ function createOut({send, say, openSettings, page}) {
         const last = isRun() ? readNumber('movie-last', 'the last frame') : 0;
         if (last < first)
             throw new Error('the last frame comes before the first');
-        return {kind: $('movie-kind').value, rate, first, last, frames: run.frames, as: $('movie-as').value,
+        return {kind: $('movie-kind').value, rate, first, last, frames, as: $('movie-as').value,
                 degrees: readNumber('movie-degrees', 'degrees'),
                 count: isRun() ? 0 : Math.max(1, Math.round(rate * readNumber('movie-seconds', 'seconds'))),
                 width: Math.max(2, size.width & ~1), height: Math.max(2, size.height & ~1)}; // as encoders have it
@@ -116,7 +85,7 @@ function createOut({send, say, openSettings, page}) {
     }
     function setBusy(on) {
         for (const id of ['save-picture', 'save-movie'])
-            $(id).disabled = on || !run;
+            $(id).disabled = on || !frames;
         $('making').hidden = !on;
     }
     function show(done, of) {
@@ -137,16 +106,16 @@ function createOut({send, say, openSettings, page}) {
     };
 
     return {
-        // A run is open.
-        begin(opened) {
-            run = opened;
-            const several = run.frames > 1;
+        // A run of so many frames is open.
+        begin(count) {
+            frames = count;
+            const several = frames > 1;
             $('movie-kind').value = several ? 'run' : 'orbit';
             $('movie-kind').options[0].disabled = !several;
             for (const id of ['movie-first', 'movie-last'])
-                $(id).max = run.frames - 1;
+                $(id).max = frames - 1;
             $('movie-first').value = 0;
-            $('movie-last').value = run.frames - 1;
+            $('movie-last').value = frames - 1;
             $('movie-kind').onchange();
             $('save-settings').disabled = false;
             setBusy(false);
@@ -160,11 +129,11 @@ function createOut({send, say, openSettings, page}) {
             refuse(m.text || '');
             say(m.blob ? `${m.name}: ${(m.blob.size / 1e6).toFixed(2)} MB` : m.text ? m.text : 'cancelled', !!m.text);
         },
-        // The settings of what is shown, its frame, and how many before it belong to it.
-        tell(m) {
-            ({text: settings, frame, lead} = m);
-            $('command').value = run && settings ? commandLine() : '';
-            $('python').value = run && settings ? pythonLines() : '';
+        // The settings of what is shown, and what makes the same.
+        tell({text, command, python}) {
+            settings = text;
+            $('command').value = command;
+            $('python').value = python;
         },
     };
 }

@@ -345,15 +345,16 @@
         const tellValues = () =>
             tell('values', {values: Object.fromEntries(names.map((name) => [name, values(name)]))});
 
-        function open({name, count, files, run, topology, mesh}) {
+        function open({name, count, files, run, topology, mesh, given}) {
             playing = false;
             left = 0;
             for (const old of cgt.FS.readdir('.').filter((f) => f !== '.' && f !== '..'))
                 cgt.FS.unlink(old);
             for (const f of files)
                 cgt.FS.writeFile(f.name, new Uint8Array(f.bytes));
-            const status = cgt.ccall('web_open', 'number', ['string', 'string', 'string'],
-                                     [run.join('\n'), topology, mesh]);
+            const take = (call, names) => cgt.ccall(call, 'number', ['string', 'string', 'string'],
+                                                    [names.run.join('\n'), names.topology, names.mesh]);
+            const status = take('web_name', given) || take('web_open', {run, topology, mesh});
             isOpen = status === 0;
             outdated = isOpen;
             hasShadows = true;
@@ -363,8 +364,7 @@
             frames = cgt._web_frames();
             const columns = JSON.parse(cgt.UTF8ToString(cgt._web_columns()));
             const kind = cgt._web_has_triangles() ? 'triangles' : 'spheres';
-            const origin = cgt.UTF8ToString(cgt._web_origin());
-            tell('opened', {name, count, frames, columns, kind, origin});
+            tell('opened', {name, count, frames, columns, kind});
             tellValues();
             for (let text; (text = cgt._web_warning());)
                 tell('warning', {text: cgt.UTF8ToString(text)});
@@ -435,8 +435,11 @@
                                            text: message()}),
             make,
             cancel: () => { cancelled = true; },
-            settings: () => tell('settings', {text: cgt.UTF8ToString(cgt._web_settings()), frame: cgt._web_frame(),
-                                              lead: cgt._web_lead()}),
+            settings: () => {
+                const [text, command, python] = ['settings', 'command', 'python']
+                    .map((lines) => cgt.UTF8ToString(cgt['_web_' + lines]()));
+                tell('settings', {text, command, python});
+            },
             load: (m) => { // a settings file
                 const path = '/' + m.name.replace(/[/\0]/g, '_');
                 const before = cgt.ccall('web_values', 'string', ['string'], [null]);
@@ -483,7 +486,7 @@
         const begin = performance.now();
         const page = window.cgtPage =
             {ready: 0, first: 0, pictures: 0, left: 0, milliseconds: 0, error: '', picked: null, loads: 0};
-        let playing = false, sliding = false, playsFirst = false, waiting = {}, doubts = [], latest = {}, opened = {};
+        let playing = false, sliding = false, playsFirst = false, waiting = {}, doubts = [], latest = {};
         page.send = send;
         page.ask = (type, rest, answer) => new Promise((done) => { waiting[answer || type] = done; send(type, rest); });
 
@@ -530,7 +533,7 @@
                 page.columns = m.columns;
                 panel.setColumns(m.columns);
                 ask.begin(m.columns);
-                out.begin({...opened, frames: m.frames, kind: m.kind, origin: m.origin});
+                out.begin(m.frames);
                 say(doubts[0] || m.name + (m.count > 1 ? ` and ${m.count - 1} more` : '') +
                     (m.frames > 1 ? ': ' + m.frames + ' frames' : ''));
                 $('time').max = Math.max(0, m.frames - 1);
@@ -603,7 +606,6 @@
             unpack,
             openRun: (m) => {
                 doubts = m.doubt ? [m.doubt] : [];
-                opened = m.given;
                 send('open', m, m.files.map((f) => f.bytes));
             },
             openSettings,

@@ -33,8 +33,8 @@ typedef struct web_state {
     uint8_t *pixels;
     char message[1024];
     char doubt[1100]; /* why the file's frames end too early, or options are left out, until it is told; "": nothing */
-    char *options, *columns, *values, *told; /* of the last calls that tell them */
-    web_files files;
+    char *options, *columns, *values, *told, *lines; /* of the last calls that tell them */
+    web_files files, given; /* as they are here, and as their user names them */
 } web_state;
 
 /* The one that the page has. */
@@ -49,6 +49,12 @@ int web_check(cgt_result result);
 /* Takes settings, lines "name = value", in place of all that are set, and reads the files anew. What is refused changes
  * nothing. Returns 0, or -1. */
 int web_take(const char *settings);
+
+/* How files are read; where places begin: 0 where that is the file's own origin; and what is shown. */
+cgt_trajectory_options web_reading(void);
+int web_get_origin(double origin[3]);
+int web_has_triangles(void);
+uint32_t web_frame(void);
 
 /* web_ask.c: what was picked, and what is followed, is found in a frame that is shown from now on; ends with a run. */
 void web_take_frame(void);

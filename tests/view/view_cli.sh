@@ -218,8 +218,22 @@ wait 0.2
 END
     cp "$tmp/stdout" "$tmp/lines.py"
     python3 -m py_compile "$tmp/lines.py" 2>"$tmp/python.log" || fail "Python's lines: $(cat "$tmp/lines.py" "$tmp/python.log")"
-    grep -qF 'type_color=["1=red", "2=blue"], title="It'"'"'s \"so\" \\", bonds=True' "$tmp/lines.py" ||
-        fail "Python's lines: $(cat "$tmp/lines.py")"
+    for line in '    type_color=["1=red", "2=blue"],' '    title="It'"'"'s \"so\" \\",' '    bonds=True,'; do
+        grep -qxF "$line" "$tmp/lines.py" || fail "Python's lines lack $line: $(cat "$tmp/lines.py")"
+    done
+    [ "$(grep -c '^    type_color=' "$tmp/lines.py")" = 1 ] || fail "a keyword comes twice: $(cat "$tmp/lines.py")"
+    # The frame before, for speeds; a mesh, with the origin of the run.
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$tmp/-wall.obj"
+    (cd "$tmp" && view 0 --first=5 -s 900x300 --style plain -a 1 --mesh ./-wall.obj --origin=1,2,3 --color speed "$pour") <<'END'
+settle
+key o
+wait 0.2
+click 780 43
+wait 0.2
+END
+    grep -qxF 'for frame in run[4:6]:' "$tmp/stdout" || fail "Python's lines: $(cat "$tmp/stdout")"
+    grep -qxF 'figure.set_mesh(cgt.read("./-wall.obj", origin=(1, 2, 3))[0])' "$tmp/stdout" ||
+        fail "Python's lines: $(cat "$tmp/stdout")"
 fi
 
 # Mirrors and glass, a floor, a transparent background; also after colours, hiding and the camera's up have changed.
