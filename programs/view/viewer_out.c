@@ -191,8 +191,7 @@ void viewer_copy_command(viewer *v)
 {
     char *const settings = settings_of_picture(v);
     if (settings)
-        copy(v, view_command(v->draw, settings, v->shown, v->options.pictures),
-             "the command line of the picture is");
+        copy(v, view_command(v->draw, settings, v->shown, v->options.pictures), "the command line of the picture is");
     free(settings);
 }
 
