@@ -153,9 +153,8 @@ typedef struct draw_ray_light {
 /* The same: lays the layers over what is opaque along `count` rays of a row, from (x, y) on, at most DRAW_BLOCK. */
 void cgt_draw_mix_layers(const drawing *d, uint32_t x, uint32_t y, uint32_t count, draw_ray_light *light);
 
-/* draw_shade.c: shades ray (x + i, y), which has a hit; means: of the rays from x on. */
-void cgt_draw_shade_ray(const drawing *d, uint32_t x, uint32_t y, const draw_means *means, uint32_t i,
-                        draw_ray_light *light);
+/* draw_shade.c: the light of `count` rays of a row, from (x, y) on, at most DRAW_BLOCK; cover 0: a ray has no hit. */
+void cgt_draw_shade_rays(const drawing *d, uint32_t x, uint32_t y, uint32_t count, draw_ray_light *light);
 
 /* draw_tiles.c: the fields of a tile that the visitor reads, whose user is the drawing. */
 uint32_t cgt_draw_tile_fields(const drawing *d);

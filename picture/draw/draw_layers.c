@@ -48,16 +48,8 @@ void cgt_draw_mix_layers(const drawing *d, uint32_t x, uint32_t y, uint32_t coun
 {
     const cgt_picture_layer *const style = d->options->style.layers;
     draw_ray_light of[CGT_PICTURE_MAX_LAYERS][DRAW_BLOCK];
-    draw_means means;
-    for (uint32_t l = 0; l < d->layers; l++) {
-        const uint32_t *const primitive = d->layer[l].primitive + (size_t)y * d->ray_width + x;
-        cgt_draw_smooth(&d->layer[l], x, y, count, &means);
-        for (uint32_t i = 0; i < count; i++)
-            if (primitive[i] != CGT_INVALID_ID)
-                cgt_draw_shade_ray(&d->layer[l], x, y, &means, i, &of[l][i]);
-            else
-                of[l][i] = (draw_ray_light){.cover = 0.0f};
-    }
+    for (uint32_t l = 0; l < d->layers; l++)
+        cgt_draw_shade_rays(&d->layer[l], x, y, count, of[l]);
     for (uint32_t i = 0; i < count; i++) {
         uint8_t order[CGT_PICTURE_MAX_LAYERS];
         uint32_t hits = 0;

@@ -9,93 +9,176 @@
 
 enum { RUN = DRAW_BLOCK / 4 }; /* pixels, of up to four rays along the row; short, so that many runs hit nothing */
 
-static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+/* ---- Light -------------------------------------------------------------------------------------------------- */
 
-/* ---- A hit -------------------------------------------------------------------------------------------------- */
+/* Rays of a row side by side, for loops that a compiler vectorises: those without a hit go along. */
+typedef struct ray_row {
+    const drawing *drawing;
+    size_t first; /* in planes */
+    uint32_t count;
+    const float *normal[3]; /* that light sees */
+    float dir[3][DRAW_BLOCK], turned[3][DRAW_BLOCK], light[3][DRAW_BLOCK], share[DRAW_BLOCK];
+    draw_means means;
+} ray_row;
 
-/* Light from the lamp `l` on a hit: 0 to 1 by Lambert's law. */
-static float lambert(const cgt_picture_light *l, const float n[3], const float position[3])
+/* draw_ray's directions. */
+static void aim(ray_row *r, uint32_t x, uint32_t y)
 {
-    float towards[3];
-    if (l->light.kind == CGT_LIGHT_DIRECTIONAL)
-        return fmaxf(0.0f, dot(n, l->light.position));
-    for (int c = 0; c < 3; c++)
-        towards[c] = l->light.position[c] - position[c];
-    const float length = sqrtf(dot(towards, towards));
-    return length > 0.0f ? fmaxf(0.0f, dot(n, towards) / length) : 0.0f;
-}
-
-/* A ray of the row that is shaded. */
-typedef struct ray_place {
-    uint32_t x, y;
-    float org[3], dir[3];
-    const draw_means *means; /* of the rays from x - i on */
-    uint32_t i;
-} ray_place;
-
-/* All light that a hit sends to the eye where its surface is white. */
-static void light_at(const drawing *d, const ray_place *at, const float n[3], float light[3])
-{
-    const cgt_picture_options *s = d->options;
-    const size_t k = (size_t)at->y * d->ray_width + at->x;
-    const float *const dir = at->dir;
-    float place[3];
-    uint32_t m = 0;
-    const float sky = d->sky ? at->means->mean[m++][at->i] : 1.0f, facing = fabsf(dot(n, dir)) / sqrtf(dot(dir, dir));
-    /* Light from the eye reaches into corners less, too, or they would look lit from inside. */
-    light[0] = light[1] = light[2] = s->lighting.sky * sky + s->lighting.head * facing * (0.4f + 0.6f * sky);
-    for (int c = 0; c < 3; c++)
-        place[c] = at->org[c] + d->t[k] * dir[c];
-    for (uint32_t i = 0; i < s->lighting.light_count; i++) {
-        const cgt_picture_light *l = &s->lighting.lights[i];
-        const float reach = d->reach[i]                           ? at->means->mean[m++][at->i]
-                            : d->occluded[i] && d->occluded[i][k] ? 0.0f
-                                                                  : 1.0f;
-        const float share = reach * lambert(l, n, place);
-        for (int c = 0; c < 3; c++)
-            light[c] += share * l->color[c];
+    const drawing *const d = r->drawing;
+    const float down = 1.0f - 2.0f * ((float)y + 0.5f) / (float)d->ray_height;
+    const int perspective = d->camera.projection == CGT_PROJECTION_PERSPECTIVE;
+    for (int c = 0; c < 3; c++) {
+        const float right = d->right[c], up = down * d->up[c], forward = d->forward[c], width = (float)d->ray_width;
+        for (uint32_t i = 0; i < r->count; i++) {
+            const float across = 2.0f * ((float)(int32_t)(x + i) + 0.5f) / width - 1.0f;
+            r->dir[c][i] = perspective ? forward + (across * right + up) : forward;
+        }
     }
 }
 
-/* The linear colour of a ray with a hit. */
-static void shade_hit(const drawing *d, const ray_place *at, float out[3])
+/* Normals of triangles are turned to the eye, and interpolated. */
+static void find_normals(ray_row *r)
 {
-    const cgt_picture_options *s = d->options;
-    const size_t k = (size_t)at->y * d->ray_width + at->x;
-    const picture_look *look = draw_look(d, d->geometry[k]);
-    float n[3], light[3], mixed[3];
+    const drawing *const d = r->drawing;
     for (int c = 0; c < 3; c++)
-        n[c] = d->normal[c][k];
-    if (look->is_triangles)
-        cgt_look_turn_normal(look, d->primitive[k], d->u, d->v, k, at->dir, n);
-    light_at(d, at, n, light);
-    const float *const color = look_color(look, d->primitive[k], d->u, d->v, k, mixed);
-    const float line = s->style.outline > 0.0f ? cgt_draw_outline_at(d, at->x, at->y) : 0.0f;
-    float far_share = s->style.cue > 0.0f
-                          ? (d->t[k] - s->style.cue_range[0]) / (s->style.cue_range[1] - s->style.cue_range[0])
-                          : 0.0f;
-    far_share = s->style.cue * (far_share > 0.0f ? far_share < 1.0f ? far_share : 1.0f : 0.0f);
+        r->normal[c] = d->normal[c] + r->first;
+    if (!d->has_triangles)
+        return;
+    for (uint32_t i = 0; i < r->count; i++) {
+        const size_t k = r->first + i;
+        const picture_look *const look = draw_look(d, d->geometry[k]);
+        const float dir[3] = {r->dir[0][i], r->dir[1][i], r->dir[2][i]};
+        float n[3] = {d->normal[0][k], d->normal[1][k], d->normal[2][k]};
+        if (d->primitive[k] != CGT_INVALID_ID && look->is_triangles)
+            cgt_look_turn_normal(look, d->primitive[k], d->u, d->v, k, dir, n);
+        for (int c = 0; c < 3; c++)
+            r->turned[c][i] = n[c];
+    }
+    for (int c = 0; c < 3; c++)
+        r->normal[c] = r->turned[c];
+}
+
+/* Light of the sky and from the eye; that reaches into corners less, too, or they would look lit from inside. */
+static void add_sky_light(ray_row *r, const float *sky)
+{
+    const drawing *const d = r->drawing;
+    const float *const nx = r->normal[0], *const ny = r->normal[1], *const nz = r->normal[2];
+    const float of_sky = d->options->lighting.sky, of_head = d->options->lighting.head;
+    for (uint32_t i = 0; i < r->count; i++) {
+        const float dx = r->dir[0][i], dy = r->dir[1][i], dz = r->dir[2][i], seen = sky ? sky[i] : 1.0f;
+        const float facing = fabsf(nx[i] * dx + ny[i] * dy + nz[i] * dz) / sqrtf(dx * dx + dy * dy + dz * dz);
+        const float light = of_sky * seen + of_head * facing * (0.4f + 0.6f * seen);
+        r->light[0][i] = r->light[1][i] = r->light[2][i] = light;
+    }
+}
+
+/* Lambert's law for light from one side, or from a place. */
+static void find_lambert(ray_row *r, const float direction[3])
+{
+    const float *const nx = r->normal[0], *const ny = r->normal[1], *const nz = r->normal[2];
+    const float x = direction[0], y = direction[1], z = direction[2];
+    for (uint32_t i = 0; i < r->count; i++) {
+        const float cosine = nx[i] * x + ny[i] * y + nz[i] * z;
+        r->share[i] = cosine > 0.0f ? cosine : 0.0f;
+    }
+}
+
+static void find_lambert_of_point(ray_row *r, const float light[3], uint32_t x, uint32_t y)
+{
+    const drawing *const d = r->drawing;
+    const float *const t = d->t + r->first;
+    for (uint32_t i = 0; i < r->count; i++) {
+        float org[3], dir[3], cosine = 0.0f, square = 0.0f;
+        draw_ray(d, x + i, y, org, dir);
+        for (int c = 0; c < 3; c++) {
+            const float towards = light[c] - (org[c] + t[i] * dir[c]);
+            cosine += r->normal[c][i] * towards;
+            square += towards * towards;
+        }
+        cosine = square > 0.0f ? cosine / sqrtf(square) : 0.0f;
+        r->share[i] = cosine > 0.0f ? cosine : 0.0f;
+    }
+}
+
+/* Adds what arrives of a light: `mean`: of its rays, NULL: it is hard. */
+static void add_light(ray_row *r, uint32_t index, const float *mean)
+{
+    const drawing *const d = r->drawing;
+    const uint8_t *const occluded = mean || !d->occluded[index] ? NULL : d->occluded[index] + r->first;
+    const float *const color = d->options->lighting.lights[index].color;
+    for (uint32_t i = 0; mean && i < r->count; i++)
+        r->share[i] = mean[i] * r->share[i];
+    for (uint32_t i = 0; occluded && i < r->count; i++)
+        r->share[i] = occluded[i] ? 0.0f : r->share[i];
+    for (int c = 0; c < 3; c++)
+        for (uint32_t i = 0; i < r->count; i++)
+            r->light[c][i] += r->share[i] * color[c];
+}
+
+/* All light that hits send to the eye where their surface is white. */
+static void find_light(ray_row *r, uint32_t x, uint32_t y)
+{
+    const drawing *const d = r->drawing;
+    const cgt_picture_lighting *const of = &d->options->lighting;
+    uint32_t m = 0;
+    cgt_draw_smooth(d, x, y, r->count, &r->means);
+    aim(r, x, y);
+    find_normals(r);
+    add_sky_light(r, d->sky ? r->means.mean[m++] : NULL);
+    for (uint32_t i = 0; i < of->light_count; i++) {
+        const cgt_light *const light = &of->lights[i].light;
+        if (light->kind == CGT_LIGHT_DIRECTIONAL)
+            find_lambert(r, light->position);
+        else
+            find_lambert_of_point(r, light->position, x, y);
+        add_light(r, i, d->reach[i] ? r->means.mean[m++] : NULL);
+    }
+}
+
+/* ---- Colour ------------------------------------------------------------------------------------------------- */
+
+/* The linear colour of ray i, which has a hit. */
+static void color_hit(const ray_row *r, uint32_t i, uint32_t x, uint32_t y, float out[3])
+{
+    const drawing *const d = r->drawing;
+    const cgt_picture_style *const s = &d->options->style;
+    const size_t k = r->first + i;
+    float mixed[3];
+    const float *const color = look_color(draw_look(d, d->geometry[k]), d->primitive[k], d->u, d->v, k, mixed);
+    const float line = s->outline > 0.0f ? cgt_draw_outline_at(d, x + i, y) : 0.0f;
+    float far_share = s->cue > 0.0f ? (d->t[k] - s->cue_range[0]) / (s->cue_range[1] - s->cue_range[0]) : 0.0f;
+    far_share = s->cue * (far_share > 0.0f ? far_share < 1.0f ? far_share : 1.0f : 0.0f);
     for (int c = 0; c < 3; c++) {
-        const float lit = color[c] * light[c];
-        const float drawn = lit + line * (s->style.outline_color[c] - lit);
-        out[c] = drawn + far_share * (s->style.background[c] - drawn);
+        const float lit = color[c] * r->light[c][i];
+        const float drawn = lit + line * (s->outline_color[c] - lit);
+        out[c] = drawn + far_share * (s->background[c] - drawn);
+    }
+}
+
+void cgt_draw_shade_rays(const drawing *d, uint32_t x, uint32_t y, uint32_t count, draw_ray_light *light)
+{
+    ray_row r;
+    r.drawing = d;
+    r.first = (size_t)y * d->ray_width + x;
+    r.count = count;
+    for (uint32_t i = 0; i < count; i++)
+        light[i] = (draw_ray_light){.depth = INFINITY, .id = CGT_INVALID_ID};
+    if (draw_is_background(d->primitive + r.first, 0, count, 1))
+        return;
+    find_light(&r, x, y);
+    for (uint32_t i = 0; i < count; i++) {
+        const size_t k = r.first + i;
+        if (d->primitive[k] == CGT_INVALID_ID)
+            continue;
+        const uint32_t *const ids = draw_look(d, d->geometry[k])->of.ids;
+        color_hit(&r, i, x, y, light[i].color);
+        light[i].cover = 1.0f;
+        light[i].depth = d->t[k];
+        light[i].id = ids ? ids[d->primitive[k]] : d->primitive[k];
     }
 }
 
 /* ---- A row -------------------------------------------------------------------------------------------------- */
-
-void cgt_draw_shade_ray(const drawing *d, uint32_t x, uint32_t y, const draw_means *means, uint32_t i,
-                        draw_ray_light *light)
-{
-    ray_place at = {.x = x + i, .y = y, .means = means, .i = i};
-    const size_t k = (size_t)y * d->ray_width + at.x;
-    const uint32_t *ids = draw_look(d, d->geometry[k])->of.ids;
-    draw_ray(d, at.x, at.y, at.org, at.dir);
-    shade_hit(d, &at, light->color);
-    light->cover = 1.0f;
-    light->depth = d->t[k];
-    light->id = ids ? ids[d->primitive[k]] : d->primitive[k];
-}
 
 static void add_ray(const draw_ray_light *light, pixel_sum *sum)
 {
@@ -109,40 +192,21 @@ static void add_ray(const draw_ray_light *light, pixel_sum *sum)
     }
 }
 
-/* Adds the rays of a row that go through layers, `count` from ray x on, n to a pixel. */
-static void add_layered_rays(const drawing *d, uint32_t x, uint32_t y, uint32_t count, const draw_means *means,
-                             uint32_t n, pixel_sum *sum)
-{
-    const uint32_t *const primitive = d->primitive + (size_t)y * d->ray_width + x;
-    draw_ray_light light[DRAW_BLOCK];
-    for (uint32_t i = 0; i < count; i++)
-        if (primitive[i] != CGT_INVALID_ID)
-            cgt_draw_shade_ray(d, x, y, means, i, &light[i]);
-        else
-            light[i] = (draw_ray_light){.depth = INFINITY, .id = CGT_INVALID_ID};
-    cgt_draw_mix_layers(d, x, y, count, light);
-    for (uint32_t i = 0; i < count; i++)
-        if (light[i].cover > 0.0f)
-            add_ray(&light[i], &sum[i / n]);
-}
-
 /* Adds whole pixels among those of a row, each as all of its rays. */
 static void add_whole(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels, pixel_sum *sum)
 {
     const drawing *const w = d->whole;
     const uint32_t n = d->options->antialias, rays = n * n, *const primitive = w->primitive + (size_t)py * w->ray_width;
-    draw_means means;
-    cgt_draw_smooth(w, px, py, pixels, &means);
+    draw_ray_light light[RUN];
+    cgt_draw_shade_rays(w, px, py, pixels, light);
     for (uint32_t i = 0; i < pixels; i++) {
-        draw_ray_light light;
         if (primitive[px + i] == CGT_INVALID_ID)
             continue;
-        cgt_draw_shade_ray(w, px, py, &means, i, &light);
         for (int c = 0; c < 3; c++)
-            sum[i].hits[c] = (float)rays * light.color[c];
+            sum[i].hits[c] = (float)rays * light[i].color[c];
         sum[i].count = rays;
         sum[i].cover = (float)rays;
-        sum[i].id = light.id;
+        sum[i].id = light[i].id;
         const float *const t = d->t + (size_t)py * n * d->ray_width + (size_t)(px + i) * n;
         for (uint32_t k = 0; k < rays && d->image.linear; k++)
             sum[i].depth = fminf(sum[i].depth, t[k / n * d->ray_width + k % n]);
@@ -153,20 +217,14 @@ static void add_whole(const drawing *d, uint32_t px, uint32_t py, uint32_t pixel
 static void add_rays(const drawing *d, uint32_t px, uint32_t py, uint32_t pixels, pixel_sum *sum)
 {
     const uint32_t n = d->options->antialias;
-    draw_means means;
+    draw_ray_light light[DRAW_BLOCK];
     for (uint32_t y = py * n; y < (py + 1) * n; y++) {
-        const uint32_t *primitive = d->primitive + (size_t)y * d->ray_width + (size_t)px * n;
-        cgt_draw_smooth(d, px * n, y, pixels * n, &means);
-        if (d->layers) {
-            add_layered_rays(d, px * n, y, pixels * n, &means, n, sum);
-            continue;
-        }
+        cgt_draw_shade_rays(d, px * n, y, pixels * n, light);
+        if (d->layers)
+            cgt_draw_mix_layers(d, px * n, y, pixels * n, light);
         for (uint32_t i = 0; i < pixels * n; i++)
-            if (primitive[i] != CGT_INVALID_ID) {
-                draw_ray_light light;
-                cgt_draw_shade_ray(d, px * n, y, &means, i, &light);
-                add_ray(&light, &sum[i / n]);
-            }
+            if (light[i].cover > 0.0f)
+                add_ray(&light[i], &sum[i / n]);
     }
 }
 
