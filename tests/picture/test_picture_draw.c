@@ -163,6 +163,25 @@ TEST(light_follows_lambert_and_adds_up)
     tear_down(&s);
 }
 
+TEST(triangles_are_lit_on_the_side_that_is_seen)
+{
+    static const uint32_t turned[6] = {0, 2, 1, 0, 3, 2};
+    static uint8_t before[3 * PIXELS];
+    static stage s;
+    set_up(&s, 1, NULL);
+    draw(&s);
+    memcpy(before, s.rgb, sizeof before);
+    const cgt_triangles triangles = {.count = 2,
+                                     .indices = cgt_uint32s(turned, 0),
+                                     .vertex_count = 4,
+                                     .vertices = cgt_floats(floor_corner, 0)};
+    assert_int_equal(cgt_scene_set_triangles(s.scene, &(uint32_t){FLOOR}, &triangles), CGT_OK);
+    draw(&s);
+    assert_true(s.rgb[3 * at(6.1f, 6.1f)] > 0);
+    assert_memory_equal(s.rgb, before, sizeof before);
+    tear_down(&s);
+}
+
 TEST(hard_shadows_fall_where_they_should)
 {
     static stage s;

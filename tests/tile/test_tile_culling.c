@@ -13,9 +13,14 @@
 
 #include "vector.h"
 
+#include "kernel/tunables.h"
+
+static const double given_scale = TILE_DOUBLE_ERROR_SCALE;
 static float filter_u = 0x1p-24f;
-static double double_scale = 0x1p30;
+static double double_scale = TILE_DOUBLE_ERROR_SCALE;
+#undef FILTER_ROUNDOFF
 #define FILTER_ROUNDOFF filter_u
+#undef TILE_DOUBLE_ERROR_SCALE
 #define TILE_DOUBLE_ERROR_SCALE double_scale
 #include "kernel/tile_draw/tile_double.c"
 #include "kernel/tile_frame/tile_cull.h"
@@ -386,7 +391,7 @@ static void tighten(uint64_t stream, const struct bound *b, bool parallel)
         for (int step = 0; step < STEPS; step++) {
             const float scale = exp2f(-0.5f * (float)step);
             filter_u = 0x1p-24f * scale;
-            double_scale = 0x1p30 * (double)scale;
+            double_scale = given_scale * (double)scale;
             begin_tile(&t, &at);
             t.max_far_distance = t.max_far_t = INFINITY;
             for (uint32_t i = 0; i < TILE_PARTS * TILE_PARTS; i++)
@@ -394,7 +399,7 @@ static void tighten(uint64_t stream, const struct bound *b, bool parallel)
             fails[step] += b->fails(&t);
         }
         filter_u = 0x1p-24f;
-        double_scale = 0x1p30;
+        double_scale = given_scale;
     }
     snprintf(name, sizeof name, "%llu%s: %s", (unsigned long long)cases, parallel ? " parallel" : "", b->name);
     check_break(name, fails, sizeof *fails, 0, 0);
