@@ -63,7 +63,7 @@ CGT_SPU_INLINE tile_projected_triangles tile_project_parallel_triangles(const ti
 {
     tile_projected_triangles v = tile_project_triangles(t, vertex);
     v.in_front = spux_mask_all();
-    v.crosses_t_min = spux_not(spu_cmpgt(v.min_z, spux_vfloat(t->rays->t_min * (1 + TILE_EPS_BEGIN))));
+    v.crosses_t_min = spux_not(spu_cmpgt(v.min_z, spux_vfloat(t->rays->t_min)));
     return v;
 }
 

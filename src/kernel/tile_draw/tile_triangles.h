@@ -47,6 +47,9 @@
  * are below that. m.v_k is off by 8 u |d| V for the vertex and by 5 u |d| V for its rounding, m included. 32 u |d| V is
  * taken.
  *
+ * The range's begin: t is the z of the point P that is hit but for 3.5 u |d| t, or for 3 u V more of a parallel ray's
+ * origin, |P| <= V; and z of vertices is off by 8 u V. 16 u V is taken.
+ *
  * A test checks the bounds against wide arithmetic, and tightens them until it sees them break. */
 #ifndef CGT_TILE_TRIANGLES_H
 #define CGT_TILE_TRIANGLES_H
@@ -60,7 +63,6 @@
 #define TILE_EPS_PLANE_MIN (32 * FILTER_ROUNDOFF)
 #define TILE_EPS_OUTSIDE (32 * FILTER_ROUNDOFF)
 #define TILE_EPS_WINDOW (32 * FILTER_ROUNDOFF) /* 2^-19 */
-#define TILE_EPS_BEGIN (256 * FILTER_ROUNDOFF) /* 2^-16: t is z but for 3.5 u |d|, |d| at most 11.4 */
 #define TILE_LARGE_WINDOW 16u                  /* columns and rows together */
 
 /* What the loops over pixels need of each triangle. A linear form is a constant and the factors of px and py. */
@@ -123,8 +125,8 @@ CGT_SPU_INLINE tile_projected_triangles tile_project_triangles(const tile *t, vf
     s.in_front = spu_cmpgt(spu_mul(lower_z, spux_vfloat(64)), spu_add(s.max_length, spux_vfloat(0x1p-48f)));
     s.crosses_t_min = spux_mask_none();
     if (begin > 0)
-        s.crosses_t_min = spux_not(spu_cmpgt(near, spux_vfloat(begin * (1 + TILE_EPS_BEGIN))));
-    s.before_t_min = spu_cmpgt(spux_vfloat(begin * (1 - TILE_EPS_BEGIN)), end);
+        s.crosses_t_min = spux_not(spu_cmpgt(near, spux_vfloat(begin)));
+    s.before_t_min = spu_cmpgt(spux_vfloat(begin), end);
     return s;
 }
 
