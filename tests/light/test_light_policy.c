@@ -137,9 +137,9 @@ TEST(a_tree_has_to_pay_for_itself)
     a.price = 0; /* there, or paid: sooner */
     assert_true(cgt_light_leaves_tiles(&a));
     a.tried /= 1e3; /* few speak for few */
-    a.spent /= 1e3;
+    a.spent /= 10;
     assert_false(cgt_light_leaves_tiles(&a));
-    a.spent *= 1e3;
+    a.spent *= 10;
     assert_true(cgt_light_leaves_tiles(&a));
     a = none; /* points that wait for it anyway make a tree free */
     a.tried = 1.25e5;

@@ -79,14 +79,26 @@ static void list_triangles(list_query *q, const triangle_block *b, unsigned used
     list_take(q, &met, b->prim, used_lanes, CGT_NEAR_SIDE);
 }
 
-/* Both roots of what may be hit are decided. */
 static void list_capsules(list_query *q, const capsule_block *b, unsigned used_lanes)
 {
+    const lane_rays *const ray = &q->leaf.ray;
+    const vfloat radius = spux_load(b->radius);
+    vfloat end[2][3];
     lane_hits h;
-    if (!bvh_test_capsules(&q->leaf, b, &h))
+    list_roots left;
+    bvh_load_capsules(b, end);
+    if (!lane_test_capsule_from(ray, end[0], end[1], radius, true, &h))
         return;
-    const list_roots touched = {h.low, spux_vfloat(INFINITY), spu_or(h.certain_hit, h.undecided), spux_mask_none()};
+    left.low = left.high = spux_vfloat(0);
+    left.possible = left.certain =
+        lane_leave_capsule(ray, end[0], end[1], radius, h.certain_hit, &left.low, &left.high);
+    /* what is not certain of both sides is decided once */
+    const vmask possible = spu_or(h.certain_hit, h.undecided);
+    const list_roots touched = {h.low, spux_vfloat(INFINITY), spu_andc(possible, left.certain), spux_mask_none()},
+                     entered = {h.low, h.high, left.certain, left.certain};
     list_take(q, &touched, b->prim, used_lanes, CGT_BOTH_SIDES);
+    list_take(q, &entered, b->prim, used_lanes, CGT_NEAR_SIDE);
+    list_take(q, &left, b->prim, used_lanes, CGT_FAR_SIDE);
 }
 
 static void list_leaf(list_query *q, uint32_t code)

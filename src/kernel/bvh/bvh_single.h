@@ -182,14 +182,11 @@ CGT_SPU_INLINE void bvh_single_triangles(const bvh_call *c, bvh_ray *r, const bv
         bvh_single_update(c, r, l, &q, b->prim, used_lanes, any_hit);
 }
 
-/* Returns false if all certainly miss. */
-CGT_SPU_INLINE bool bvh_test_capsules(const bvh_leaf_ray *l, const capsule_block *b, lane_hits *q)
+CGT_SPU_INLINE void bvh_load_capsules(const capsule_block *b, vfloat end[2][3])
 {
-    vfloat end[2][3];
     for (int k = 0; k < 2; k++)
         for (int a = 0; a < 3; a++)
             end[k][a] = spux_load(b->end[k][a]);
-    return lane_test_capsule_from(&l->ray, end[0], end[1], spux_load(b->radius), true, q);
 }
 
 /* Out of line: most scenes have no capsules. */
@@ -197,8 +194,10 @@ __attribute__((noinline, unused)) static void bvh_single_capsules(const bvh_call
                                                                   const capsule_block *b, unsigned used_lanes,
                                                                   bool any_hit)
 {
+    vfloat end[2][3];
     lane_hits q;
-    if (bvh_test_capsules(l, b, &q))
+    bvh_load_capsules(b, end);
+    if (lane_test_capsule_from(&l->ray, end[0], end[1], spux_load(b->radius), true, &q))
         bvh_single_update(c, r, l, &q, b->prim, used_lanes, any_hit);
 }
 

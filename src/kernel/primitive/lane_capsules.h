@@ -173,6 +173,24 @@ CGT_SPU_INLINE bool lane_test_capsule(const lane_rays *r, const vfloat p[3], con
     return lane_test_capsule_from(r, p, q, radius, false, hits);
 }
 
+/* The lanes whose lines certainly leave their capsules, of those that `within` has them enter for certain, and the
+ * interval of where: what enters is likewise tested against the way back. */
+CGT_SPU_INLINE vmask lane_leave_capsule(const lane_rays *r, const vfloat p[3], const vfloat q[3], vfloat radius,
+                                        vmask within, vfloat *low, vfloat *high)
+{
+    const vfloat zero = spux_vfloat(0);
+    lane_rays back = *r;
+    lane_hits h;
+    back.t_min = spux_vfloat(-INFINITY);
+    for (int a = 0; a < 3; a++)
+        back.dir[a] = spu_sub(zero, r->dir[a]);
+    if (spux_none(within) || !lane_test_capsule_from(&back, p, q, radius, true, &h))
+        return spux_mask_none();
+    *low = spu_sub(zero, h.high);
+    *high = spu_sub(zero, h.low);
+    return spu_and(within, h.certain_hit);
+}
+
 /* ---- The line alone, in fewer operations ----
  * With m = d x n and c = p - org a line misses the capsule if |m.c| > r |m|. In normalised space, with |d_a| <= 2 and A
  * at least |c| and the error of the origin: n is off by u |n_a|, and m by three times that in its factors, 6 u |n| in

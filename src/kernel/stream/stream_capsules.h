@@ -76,7 +76,7 @@ CGT_SPU_INLINE lane_rays leaf_lane_rays(const stream *s, const leaf_rays *r)
     return ray;
 }
 
-/* Returns false if all lanes certainly miss. */
+/* Certain hits are in the range. Returns false if all lanes certainly miss. */
 CGT_SPU_INLINE bool leaf_capsule_test(const leaf_rays *r, const lane_rays *ray, const vfloat end[2][3], vfloat radius,
                                       leaf_result *f)
 {
@@ -88,6 +88,21 @@ CGT_SPU_INLINE bool leaf_capsule_test(const leaf_rays *r, const lane_rays *ray, 
     f->possible = spu_andc(spu_or(h.certain_hit, h.undecided), spu_cmpgt(h.low, r->far));
     f->certain_hit = spu_and(h.certain_hit, spu_and(spu_cmpgt(h.low, r->near_in), spu_cmpgt(r->far_in, h.high)));
     return true;
+}
+
+/* Lists both roots: what is not certain of both is decided once. f: of the test. */
+CGT_SPU_INLINE void leaf_capsule_list(const stream *s, leaf_rays *r, const lane_rays *ray, const vfloat end[2][3],
+                                      vfloat radius, const leaf_result *f, uint32_t prim)
+{
+    leaf_result left = {.low = spux_vfloat(0), .high = spux_vfloat(0)}, entered = *f, touched = *f;
+    left.possible = left.certain_hit =
+        lane_leave_capsule(ray, end[0], end[1], radius, f->certain_hit, &left.low, &left.high);
+    entered.possible = entered.certain_hit = left.certain_hit;
+    touched.possible = spu_andc(f->possible, left.certain_hit);
+    touched.certain_hit = spux_mask_none();
+    leaf_list_hits(s, r, &touched, prim, CGT_BOTH_SIDES);
+    leaf_list_hits(s, r, &entered, prim, CGT_NEAR_SIDE);
+    leaf_list_hits(s, r, &left, prim, CGT_FAR_SIDE);
 }
 
 /* ---- Closest hits ---- */
@@ -110,12 +125,12 @@ CGT_SPU_INLINE void leaf_capsules_closest(stream *s, const capsule_block *leaf, 
             for (int e = 0; e < 2; e++)
                 for (int a = 0; a < 3; a++)
                     end[e][a] = spux_vfloat(leaf->end[e][a][k]);
-            if (!leaf_capsule_test(&r, &ray, (const vfloat(*)[3])end, spux_vfloat(leaf->radius[k]), &f))
+            const vfloat radius = spux_vfloat(leaf->radius[k]);
+            if (!leaf_capsule_test(&r, &ray, (const vfloat(*)[3])end, radius, &f))
                 continue;
-            if (lists) { /* both roots are decided */
-                f.certain_hit = spux_mask_none();
-                leaf_list_hits(s, &r, &f, leaf->prim[k], CGT_BOTH_SIDES);
-            } else
+            if (lists)
+                leaf_capsule_list(s, &r, &ray, (const vfloat(*)[3])end, radius, &f, leaf->prim[k]);
+            else
                 leaf_update_hits(s, &r, &f, leaf->prim[k], false, skips_prims);
         }
         if (lists)
