@@ -91,10 +91,17 @@ macro(cgt_find_RENDER)
     endforeach()
 endmacro()
 
-# CMake's own modules, as projects that link the archive find it. Fontconfig finds other fonts for what one lacks.
+# CMake's own modules, as projects that link the archive find it. Fontconfig finds other fonts for what one lacks. For
+# WebAssembly FreeType alone, where it is asked for: cmake/toolchains/wasm_freetype.sh builds it.
 macro(cgt_find_TEXT)
-    foreach(name IN ITEMS Freetype Fontconfig)
-        if(NOT EMSCRIPTEN AND NOT TARGET ${name}::${name})
+    set(cgt_text_packages Freetype Fontconfig)
+    if(EMSCRIPTEN AND CGT_BUILD_TEXT STREQUAL "ON")
+        set(cgt_text_packages Freetype)
+    elseif(EMSCRIPTEN)
+        set(cgt_text_packages "")
+    endif()
+    foreach(name IN LISTS cgt_text_packages)
+        if(NOT TARGET ${name}::${name})
             find_package(${name} QUIET)
             if(TARGET ${name}::${name}) # for projects that this one lies in
                 set_target_properties(${name}::${name} PROPERTIES IMPORTED_GLOBAL TRUE)

@@ -278,8 +278,7 @@ static void draw_labels(cgt_figure *figure, const canvas *c, const overlay_frame
 
 void cgt_figure_draw_overlay(cgt_figure *figure)
 {
-    const canvas c = {figure->options.width, figure->options.height, figure->image.bytes, figure->image.alpha,
-                      figure->image.linear};
+    const canvas c = {figure->options.width, figure->options.height, figure->image};
     overlay_frame frame = {.number = figure->frame->number,
                            .step = figure->frame->step,
                            .time = figure->frame->time,

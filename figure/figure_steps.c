@@ -104,14 +104,6 @@ static cgt_result make_ready(cgt_figure *figure, int is_whole)
     return CGT_OK;
 }
 
-static cgt_result check_image(cgt_figure *figure, const cgt_image *image)
-{
-    const int has_gaps = image->row_stride && image->row_stride != 3 * (size_t)figure->options.width;
-    if (figure->overlay.font && (!image->bytes || image->channels == 4 || has_gaps))
-        return refuse(figure, "texts need an image of three channels, without gaps between its rows");
-    return CGT_OK;
-}
-
 static cgt_result finish(cgt_figure *figure, const cgt_picture *picture, cgt_result result)
 {
     if (result && picture)
@@ -124,8 +116,6 @@ static cgt_result finish(cgt_figure *figure, const cgt_picture *picture, cgt_res
 cgt_result cgt_figure_draw(cgt_figure *figure, const cgt_image *image, const cgt_trace_options *options)
 {
     cgt_result result = make_ready(figure, 1);
-    if (!result)
-        result = check_image(figure, image);
     if (result)
         return result;
     const cgt_picture_options settings = cgt_figure_get_settings(figure);
@@ -160,11 +150,10 @@ cgt_result cgt_figure_step(cgt_figure *figure, uint32_t samples, uint32_t *left)
 
 cgt_result cgt_figure_read(cgt_figure *figure, const cgt_image *image)
 {
-    cgt_result result = figure->drawing ? check_image(figure, image) : refuse(figure, "no picture has begun");
-    if (result)
-        return result;
+    if (!figure->drawing)
+        return refuse(figure, "no picture has begun");
     figure->image = *image;
-    result = cgt_picture_read(figure->drawing, image);
+    const cgt_result result = cgt_picture_read(figure->drawing, image);
     if (!result)
         cgt_figure_draw_overlay(figure);
     return finish(figure, figure->drawing, result);
@@ -209,8 +198,6 @@ cgt_result cgt_figure_draw_quick(cgt_figure *figure, cgt_figure_quality quality,
     if (quality >= CGT_FIGURE_QUALITIES || !shrink || !image->bytes || image->row_stride)
         return refuse(figure, "a quick picture is one of bytes, without gaps between its rows");
     cgt_result result = make_ready(figure, 0);
-    if (!result)
-        result = check_image(figure, image);
     if (result)
         return result;
     const uint32_t width = figure->options.width, height = figure->options.height;

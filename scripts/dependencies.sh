@@ -11,7 +11,7 @@
 # tests adds some 170 (123 MB, 450 MB), of which ffmpeg and Open MPI bring 100 (54 MB, 180 MB), LAMMPS 13 (19 MB, 93 MB).
 # Without these three the tests of movies, of MPI and of LAMMPS' own files are skipped.
 set -euo pipefail
-purposes="build|demo|render|tests|clang|cross|i686|armhf|riscv64|s390x|musl|windows|wasm|web|site|spu|packages|lint"
+purposes="build|demo|render|tests|clang|cross|i686|armhf|riscv64|s390x|musl|windows|wasm|page|web|site|spu|packages|lint"
 
 packages_of() {
     case $1 in
@@ -35,7 +35,9 @@ packages_of() {
     musl)   echo musl-tools xz-utils ;;
     site)   echo mkdocs libjs-jquery python3 ;;                                    # scripts/site.sh
     wasm)   echo emscripten nodejs xz-utils ;;
-    web)    packages_of wasm
+    page)   packages_of wasm
+            echo fonts-dejavu-core ;;                                              # scripts/web.sh
+    web)    packages_of page
             echo chromium ;;                                                       # the page, in a browser
     windows) echo gcc-mingw-w64-x86-64-posix libz-mingw-w64-dev wine64 xz-utils ;;
     spu)    echo gcc g++ make xz-utils libgmp-dev libmpfr-dev libmpc-dev ;;        # scripts/spu_toolchain.sh

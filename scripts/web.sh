@@ -3,27 +3,29 @@
 # SPDX-License-Identifier: MIT
 #
 # web.sh
-# Builds the page that traces: build/web/cgt-web.html, .js and .wasm.gz, which any server delivers as they are. Where
-# its answers have the headers of docs/guide/web.md, the page uses all threads.
+# Builds the page that traces: build/web/cgt-web.html, .js, .wasm.gz and .ttf.gz, the font of its texts, which any server
+# delivers as they are. Where its answers have the headers of docs/guide/web.md, the page uses all threads.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/dependencies.sh wasm
+scripts/dependencies.sh page
 export NODE_PATH=${NODE_PATH:-/usr/share/nodejs} # Emscripten's acorn
 if command -v ccache >/dev/null; then
     export CMAKE_C_COMPILER_LAUNCHER=ccache
 fi
-[ -e build/wasm/CMakeCache.txt ] || cmake --preset wasm -DCGT_ONLY_LIBRARY=ON
-cmake --build build/wasm -j "$(nproc)" --target cgt-web
+cmake/toolchains/wasm_freetype.sh
+[ -e build/page/CMakeCache.txt ] || cmake --preset wasm -B build/page -DCGT_ONLY_LIBRARY=ON -DCGT_BUILD_TEXT=ON
+cmake --build build/page -j "$(nproc)" --target cgt-web
 
 out=build/web
 mkdir -p "$out"
-gzip -9nc build/wasm/bin/cgt-web.wasm >"$out/cgt-web.wasm.gz"
+gzip -9nc build/page/bin/cgt-web.wasm >"$out/cgt-web.wasm.gz"
+gzip -9nc /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf >"$out/cgt-web.ttf.gz"
 # One script: Emscripten's, that of its threads as a text, those of the page.
 {
-    cat build/wasm/bin/cgt-web.js
+    cat build/page/bin/cgt-web.js
     printf 'const threadScript = '
     node -e 'process.stdout.write(JSON.stringify(require("fs").readFileSync(process.argv[1], "utf8")))' \
-        build/wasm/bin/cgt-web.worker.js
+        build/page/bin/cgt-web.worker.js
     printf ';\n'
     cat programs/web/web_{ask,files,movie,out,panel,page}.js
 } >"$out/cgt-web.js"

@@ -16,22 +16,33 @@ static void blend_linear(cgt_linear_pixel *p, const float color[3], float share)
     p->a += share * (1.0f - p->a);
 }
 
+/* What is drawn lies over what the alpha leaves of the picture: colours are not premultiplied. */
+static void blend_bytes(uint8_t *to, int has_fourth, uint8_t *plane, const float color[3], float share)
+{
+    uint8_t *const alpha = plane ? plane : to + 3;
+    const float under = has_fourth || plane ? (float)*alpha / 255.0f * (1.0f - share) : 1.0f - share;
+    const float sum = under + share;
+    for (int k = 0; k < 3; k++)
+        to[k] = cgt_srgb_encode((cgt_srgb_decode(to[k]) * under + color[k] * share) / sum);
+    if (has_fourth || plane)
+        *alpha = (uint8_t)(255.0f * sum + 0.5f);
+    if (has_fourth && plane)
+        to[3] = *plane;
+}
+
 void cgt_canvas_blend(const canvas *c, int32_t x, int32_t y, const float color[3], float coverage)
 {
     if (x < 0 || y < 0 || (uint32_t)x >= c->width || (uint32_t)y >= c->height || !(coverage > 0.0f))
         return;
-    const size_t pixel = (size_t)y * c->width + (size_t)x;
+    const cgt_image *const image = &c->image;
+    const size_t pixel = (size_t)y * c->width + (size_t)x, channels = image->channels == 4 ? 4 : 3;
+    const size_t stride = image->row_stride ? image->row_stride : c->width * channels;
     const float share = coverage < 1.0f ? coverage : 1.0f;
-    uint8_t *rgb = c->rgb + 3 * pixel;
-    /* What is drawn lies over what the alpha leaves of the picture: colours are not premultiplied. */
-    const float under = c->alpha ? (float)c->alpha[pixel] / 255.0f * (1.0f - share) : 1.0f - share;
-    const float sum = under + share;
-    for (int k = 0; k < 3; k++)
-        rgb[k] = cgt_srgb_encode((cgt_srgb_decode(rgb[k]) * under + color[k] * share) / sum);
-    if (c->alpha)
-        c->alpha[pixel] = (uint8_t)(255.0f * sum + 0.5f);
-    if (c->pixels)
-        blend_linear(&c->pixels[pixel], color, share);
+    uint8_t *const alpha = image->alpha ? image->alpha + pixel : NULL;
+    if (image->bytes)
+        blend_bytes(image->bytes + (size_t)y * stride + (size_t)x * channels, channels == 4, alpha, color, share);
+    if (image->linear)
+        blend_linear(&image->linear[pixel], color, share);
 }
 
 /* The first pixel that begins at or after 0 and reaches beyond a coordinate, and the end of those below one. Far

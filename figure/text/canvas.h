@@ -12,9 +12,7 @@
 
 typedef struct canvas {
     uint32_t width, height;
-    uint8_t *rgb;             /* 3 * width * height, sRGB */
-    uint8_t *alpha;           /* width * height; NULL: none */
-    cgt_linear_pixel *pixels; /* width * height: the same picture in linear light; NULL: none */
+    cgt_image image;
 } canvas;
 
 /* Blends a pixel to a linear colour by its coverage, 0 to 1; nothing outside of the picture. */

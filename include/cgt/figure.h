@@ -245,7 +245,7 @@ CGT_API cgt_result cgt_figure_fit(cgt_figure *figure);
 CGT_API void cgt_figure_set_stop(cgt_figure *figure, bool (*stop)(const void *user), const void *user);
 
 /* Makes a whole picture of the option size with its texts.
- *   image     texts need rows without gaps and three channels
+ *   image     as of cgt_picture_draw
  *   options   of the camera's rays; NULL: the defaults
  * Errors: INVALID_ARGUMENT (nothing is shown), OUT_OF_MEMORY, and those of cgt_picture_draw */
 CGT_API cgt_result cgt_figure_draw(cgt_figure *figure, const cgt_image *image, const cgt_trace_options *options);

@@ -12,7 +12,7 @@ static const float white[3] = {0.85f, 0.85f, 0.85f}, dim[3] = {0.3f, 0.3f, 0.3f}
 
 enum { PANEL_LINES = 64 };
 
-static canvas canvas_of(viewer *v) { return (canvas){v->width, v->height, v->over, NULL, NULL}; }
+static canvas canvas_of(viewer *v) { return (canvas){v->width, v->height, {.bytes = v->over}}; }
 static float line_height(const viewer *v) { return 18.0f * v->scale; }
 
 /* Darkens a rectangle, so that text on it can be read over any picture. */

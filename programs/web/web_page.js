@@ -201,7 +201,8 @@
                 postMessage() { setTimeout(() => this.onmessage({data: {cmd: 'loaded'}})); }
             };
         // packed, since servers do not pack what they take for a program; one that says so has it unpacked on the way
-        const packed = await fetch(new URL('cgt-web.wasm.gz', script));
+        const get = (name) => fetch(new URL(name, script)), [packed, font] =
+            await Promise.all([get('cgt-web.wasm.gz'), get('cgt-web.ttf.gz')]);
         if (!packed.ok)
             throw new Error('no cgt-web.wasm.gz: ' + packed.status);
         const cgt = await createCgt({
@@ -211,6 +212,10 @@
             locateFile: (name) => name.endsWith('.worker.js')
                 ? URL.createObjectURL(new Blob([threadScript], {type: 'text/javascript'})) : new URL(name, script).href,
         });
+        if (font.ok) { // else options that write texts are refused
+            cgt.FS.mkdirTree('/usr/share/fonts/dejavu');
+            cgt.FS.writeFile('/usr/share/fonts/dejavu/DejaVuSans.ttf', new Uint8Array(await unpack(await font.arrayBuffer())));
+        }
         cgt.FS.mkdir('/files'); // of the user, and nothing else
         cgt.FS.chdir('/files');
         const message = () => cgt.UTF8ToString(cgt._web_message());

@@ -746,6 +746,39 @@ TEST(texts_change_over_what_is_shown)
     cgt_figure_frame_release(frame);
 }
 
+/* Texts are the same on images of three and four channels, with gaps between rows, and on linear pixels alone. */
+TEST(texts_are_drawn_on_images_of_all_kinds)
+{
+    enum { WIDE = 192, HIGH = 128, STRIDE = 4 * WIDE + 9 };
+    static uint8_t rgb[3 * WIDE * HIGH], wide[STRIDE * HIGH], plain[3 * WIDE * HIGH];
+    static cgt_linear_pixel both[WIDE * HIGH], alone[WIDE * HIGH];
+    cgt_figure *const figure = make_figure();
+    const cgt_figure_data data = grains();
+    const cgt_image image = {.bytes = rgb, .linear = both}, four = {.bytes = wide, .channels = 4, .row_stride = STRIDE},
+                    linear = {.linear = alone}, textless = {.bytes = plain};
+    assert_int_equal(cgt_figure_set_lines(figure, "size = 192x128\ncamera = 9,-9,9,2,2,0,0,0,1,40\n"), CGT_OK);
+    cgt_figure_frame *const frame = keep(figure, &data);
+    assert_int_equal(cgt_figure_show_frame(figure, frame), CGT_OK);
+    assert_int_equal(cgt_figure_draw(figure, &textless, NULL), CGT_OK);
+    if (cgt_figure_set(figure, "axes", NULL) == CGT_OK) {
+        memset(wide, 7, sizeof wide);
+        assert_int_equal(cgt_figure_draw(figure, &image, NULL), CGT_OK);
+        assert_int_equal(cgt_figure_draw(figure, &four, NULL), CGT_OK);
+        assert_int_equal(cgt_figure_draw(figure, &linear, NULL), CGT_OK);
+        assert_true(memcmp(rgb, plain, sizeof rgb) != 0);
+        assert_memory_equal(alone, both, sizeof both);
+    } else
+        expect_message(figure, "FreeType");
+    for (ptrdiff_t i = 0; i < WIDE * HIGH && wide[3]; i++) {
+        assert_memory_equal(wide + i / WIDE * STRIDE + 4 * (i % WIDE), rgb + 3 * i, 3);
+        assert_int_equal(wide[i / WIDE * STRIDE + 4 * (i % WIDE) + 3], 255);
+    }
+    for (ptrdiff_t i = 0; i < 9 * HIGH && wide[3]; i++)
+        assert_int_equal(wide[i / 9 * STRIDE + 4 * WIDE + i % 9], 7);
+    cgt_figure_release(figure);
+    cgt_figure_frame_release(frame);
+}
+
 /* What was surveyed stays with options that do not concern it: camera and range are those of the run. */
 TEST(a_survey_stays_while_frames_are_kept)
 {

@@ -184,7 +184,7 @@ TEST(labels_do_not_overlap)
     char error[256];
     overlay o = {.size = 12.0f, .color = {1.0f, 1.0f, 1.0f}, .title = "A title"};
     text_label labels[40];
-    const canvas c = {WIDTH, HEIGHT, rgb, NULL, NULL};
+    const canvas c = {WIDTH, HEIGHT, {.bytes = rgb}};
     o.font = cgt_text_open(NULL, o.size, error, sizeof error);
     if (!o.font)
         skip();

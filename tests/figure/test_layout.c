@@ -205,7 +205,7 @@ TEST(texts_stay_in_their_rectangles)
             const uint32_t width = sizes[s][0], height = sizes[s][1];
             uint8_t *const rgb = calloc((size_t)width * height, 3);
             assert_non_null(rgb);
-            const canvas c = {width, height, rgb, NULL, NULL};
+            const canvas c = {width, height, {.bytes = rgb}};
             overlay o = make_overlay(font, number, height, 0.03f);
             cgt_overlay_place(&o, width, height);
             cgt_overlay_draw(&o, &c, &frame);
@@ -242,7 +242,7 @@ TEST(times_keep_their_width)
         int last = -1;
         for (uint64_t i = 0; i < 6; i++) {
             overlay o = make_overlay(font, 0, HEIGHT, 0.12f);
-            const canvas c = {WIDTH, HEIGHT, rgb, NULL, NULL};
+            const canvas c = {WIDTH, HEIGHT, {.bytes = rgb}};
             const overlay_frame frame = {.number = 3 * i, .step = -7 + 33 * (int64_t)i, .time = times[i]};
             o.time = formats[k];
             o.extreme[0] = (overlay_frame){.number = 0, .step = -7, .time = -1.5};

@@ -167,7 +167,7 @@ async function testSelections(browser, address, out) {
         await type('element == C');
         let now = await state();
         assert.deepStrictEqual([now.count, now.refused, now.shown], ['8 of 24 selected', '', false]);
-        assert.deepStrictEqual(now.enabled, ['hide', 'isolate', 'fade', 'follow', 'show-all']);
+        assert.deepStrictEqual(now.enabled, ['hide', 'isolate', 'fade', 'label', 'follow', 'show-all']);
         await page.screenshot(path.join(out, 'selection.png'));
         for (const [text, says] of [['element == ', /formula|ends|expected/i], ['chargee > 1', /no column "chargee"/]]) {
             await type(text);
@@ -181,11 +181,11 @@ async function testSelections(browser, address, out) {
         now = await state();
         assert.deepStrictEqual([now.count, now.shown, now.enabled], ['0 of 24 selected', false, ['show-all']]);
     });
-    await test('what is selected is hidden, shown alone and faded, as cgt-render does', async () => {
+    await test('what is selected is hidden, shown alone, faded and labelled, as cgt-render does', async () => {
         await type('element == H');
         const all = await pixels(page);
         for (const [id, option] of [['hide', '--hide=element == H'], ['isolate', '--show=element == H'],
-                                    ['fade', '--opacity=not (element == H)=0.15']]) {
+                                    ['fade', '--opacity=not (element == H)=0.15'], ['label', '--label=element == H']]) {
             await push(id);
             await compare(page, file, 'plain', 0, [option]);
             await push('show-all');

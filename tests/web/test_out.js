@@ -119,6 +119,13 @@ async function testLines(page, folder) {
         assert(command.includes(`'--show=element != "H" or x > 0' '--show=z < 9'`), command);
         for (const name of ['bonds', 'radius-scale', 'show', 'type-color', 'background', 'ortho'])
             await put(page, name, '');
+        const texts = [['title', 'Caffeine, C₈H₁₀N₄O₂\n'], ['axes', '\n'], ['legend', '\n'], ['scale-bar', '2,Å\n'],
+                       ['label', 'element == "O"\n'], ['label-text', '{element} {x:.1f}\n']];
+        for (const [name, values] of texts)
+            await put(page, name, values);
+        await check(caffeine);
+        for (const [name] of texts)
+            await put(page, name, '');
         const run = [["it's a run.lammpstrj", read('pour2k.lammpstrj')]];
         await drop(page, ...run.flat());
         await style(page, 'soft');

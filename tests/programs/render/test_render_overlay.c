@@ -20,7 +20,7 @@ static canvas make_canvas(int with_alpha)
 {
     memset(rgb, 0, sizeof rgb);
     memset(alpha, 0, sizeof alpha);
-    return (canvas){WIDTH, HEIGHT, rgb, with_alpha ? alpha : NULL, NULL};
+    return (canvas){WIDTH, HEIGHT, {.bytes = rgb, .alpha = with_alpha ? alpha : NULL}};
 }
 
 static const uint8_t *pixel(int x, int y) { return rgb + 3 * (y * WIDTH + x); }
@@ -59,7 +59,7 @@ TEST(linear_pixels_are_drawn_on)
         canvas c = make_canvas(with_alpha);
         for (int i = 0; i < WIDTH * HEIGHT; i++)
             linear[i] = (cgt_linear_pixel){0.0f, 0.0f, 0.0f, 7.0f, 5, with_alpha ? 0.0f : 1.0f};
-        c.pixels = linear;
+        c.image.linear = linear;
         cgt_canvas_fill(&c, 10.0f, 20.5f, 50.0f, 20.0f, grey);
         cgt_canvas_line(&c, (const float[]){5, 5}, (const float[]){80, 90}, 3.0f, blue);
         int partly = 0;
