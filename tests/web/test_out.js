@@ -120,7 +120,7 @@ async function testLines(page, folder) {
         for (const name of ['bonds', 'radius-scale', 'show', 'type-color', 'background', 'ortho'])
             await put(page, name, '');
         const texts = [['title', 'Caffeine, C₈H₁₀N₄O₂\n'], ['axes', '\n'], ['legend', '\n'], ['scale-bar', '2,Å\n'],
-                       ['label', 'element == "O"\n'], ['label-text', '{element} {x:.1f}\n']];
+                       ['label', 'element == "O"\n'], ['label-text', '{element} {x}\n']];
         for (const [name, values] of texts)
             await put(page, name, values);
         await check(caffeine);
