@@ -168,14 +168,18 @@ static void read_part(fast_part *f)
 
 /* ---- Threads ------------------------------------------------------------------------------------------------ */
 
+/* By blocks whose counts fit a byte: compilers make vectors of that. */
 static void count_part(fast_part *f)
 {
-    const char *p = f->begin;
+    enum { BLOCK = 240 };
     size_t rows = 0;
-    while (p < f->end) {
-        const char *const feed = memchr(p, '\n', (size_t)(f->end - p));
-        p = feed + 1; /* the part ends in a line feed */
-        rows++;
+    for (const char *p = f->begin; p < f->end;) {
+        const size_t left = (size_t)(f->end - p), block = left < BLOCK ? left : BLOCK;
+        uint8_t feeds = 0;
+        for (size_t i = 0; i < block; i++)
+            feeds = (uint8_t)(feeds + (p[i] == '\n'));
+        rows += feeds;
+        p += block;
     }
     f->rows = rows;
 }
@@ -186,9 +190,12 @@ static void *count_job(void *part)
     return NULL;
 }
 
+/* On a copy: parts lie side by side, and threads that count rows in one cache line would wait for each other. */
 static void *read_job(void *part)
 {
-    read_part(part);
+    fast_part own = *(const fast_part *)part;
+    read_part(&own);
+    *(fast_part *)part = own;
     return NULL;
 }
 
