@@ -118,6 +118,11 @@ static void survey_block(survey *s, const frame_sequence *sequence, const camera
             continue;
         s->drawable++;
         bound_sphere(&bounds, sphere, radius[k]);
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        const float *const sphere = f->xyzr + 4 * (size_t)(first + k);
+        if (!is_drawable[k])
+            continue;
         bulk_add(&s->bulk, f->number, first + k, f->id ? f->id[first + k] : first + k, sphere, radius[k]);
     }
     memcpy(s->bounds_min, &bounds.min, sizeof s->bounds_min);
