@@ -87,8 +87,9 @@ static inline const char *scan_place(const cgt_trajectory *t, size_t axis, const
     return p;
 }
 
-/* Reads a value by its role. Returns what follows it, or NULL. */
-static inline const char *scan_value(fast_part *f, row_role role, const char *p, row *r)
+/* Reads a value by its role. Returns what follows it, or NULL. is_plain, a constant: as has_plain_columns. */
+static inline __attribute__((always_inline)) const char *scan_value(fast_part *f, row_role role, const char *p, row *r,
+                                                                    int is_plain)
 {
     float number;
     switch (role) {
@@ -105,6 +106,8 @@ static inline const char *scan_value(fast_part *f, row_role role, const char *p,
     case ROW_X:
     case ROW_Y:
     case ROW_Z:
+        if (is_plain)
+            break;
         if (f->plan->scaled & (1u << (role - ROW_X)))
             return scan_double(p, &r->fraction[role - ROW_X]);
         return scan_place(f->t, role - ROW_X, p, &r->value[role]);
@@ -116,18 +119,19 @@ static inline const char *scan_value(fast_part *f, row_role role, const char *p,
     return scan_float(p, &r->value[role]);
 }
 
-/* Reads row i. Returns the start of the next line, or NULL: the row is not of a usual form. */
-static const char *scan_row(fast_part *f, const char *p, size_t i, row *r)
+/* Reads row i. Returns the start of the next line, or NULL: the row is not of a usual form. is_plain: as above. */
+static inline __attribute__((always_inline)) const char *scan_row(fast_part *f, const char *p, size_t i, row *r,
+                                                                  int is_plain)
 {
     const row_plan *const plan = f->plan;
     float value;
     for (uint32_t column = 0; column < plan->columns; column++) {
         while (*p == ' ' || *p == '\t')
             p++;
-        const char *const after = scan_value(f, (row_role)plan->role[column], p, r);
+        const char *const after = scan_value(f, (row_role)plan->role[column], p, r, is_plain);
         if (after == NULL || !is_end(*after))
             return NULL;
-        if (plan->slot[column] != 0) {
+        if (!is_plain && plan->slot[column] != 0) {
             if (scan_float(p, &value) != after)
                 return NULL;
             columns_values(f->t, plan->slot[column])[i] = value;
@@ -144,19 +148,29 @@ static const char *scan_row(fast_part *f, const char *p, size_t i, row *r)
     return *p == '\n' ? p + 1 : NULL;
 }
 
+/* Most rows: what columns say goes into the fields of a row alone, as it is. */
+static int has_plain_columns(const fast_part *f)
+{
+    int is_plain = f->plan->scaled == 0 && !f->t->has_origin;
+    for (uint32_t column = 0; column < f->plan->columns; column++)
+        is_plain &= f->plan->slot[column] == 0;
+    return is_plain;
+}
+
 /* Reads rows up to one of another form. */
 static void read_part(fast_part *f)
 {
     const row_plan *const plan = f->plan;
     const float radius = trajectory_default_radius(f->t);
     const char *p = f->begin;
+    const int is_plain = has_plain_columns(f);
     row r;
     memset(&r, 0, sizeof r);
     while (f->done < f->rows && p < f->end) {
         const size_t i = f->at + f->done;
         r.element = 0;
         r.value[ROW_RADIUS] = radius;
-        const char *const next = scan_row(f, p, i, &r);
+        const char *const next = is_plain ? scan_row(f, p, i, &r, 1) : scan_row(f, p, i, &r, 0);
         if (next == NULL)
             break;
         if (plan->place != NULL)
