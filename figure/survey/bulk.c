@@ -131,7 +131,6 @@ void cgt_bulk_merge(bulk *sum, const bulk *part)
     for (uint32_t i = 0; i < part->particles; i++)
         if (bulk_follows(sum, part->particle[i].hash))
             follow(sum, part->particle[i].hash, part->particle[i].min, part->particle[i].max);
-    cgt_bulk_sort(sum);
 }
 
 static int compare(const void *a, const void *b)
@@ -162,7 +161,6 @@ void cgt_bulk_values_merge(bulk_values *sum, const bulk_values *part)
 {
     for (uint32_t i = 0; i < part->count; i++)
         keep(sum->sample, &sum->count, &part->sample[i]);
-    cgt_bulk_values_sort(sum);
 }
 
 static int compare_values(const void *a, const void *b)

@@ -86,7 +86,7 @@ int cgt_bulk_values_range(const bulk_values *v, double above, double *low, doubl
 /* Sorts the samples' coordinates along an axis, or, as axis 3, how far their primitives reach: `count` floats. */
 void cgt_bulk_sort_places(const bulk *b, int axis, float *sorted);
 
-/* Adds the samples of another one, and sorts them. */
+/* Adds the samples of another one. */
 void cgt_bulk_merge(bulk *sum, const bulk *part);
 void cgt_bulk_values_merge(bulk_values *sum, const bulk_values *part);
 
