@@ -95,7 +95,7 @@ static void shorten(const periodic_box *box, const float *a, const float *b, dou
 static inline double distance(const periodic_box *box, const float *a, const float *b)
 {
     double step[3] = {(double)b[0] - (double)a[0], (double)b[1] - (double)a[1], (double)b[2] - (double)a[2]};
-    if (!box->is_open)
+    if (!(fabs(step[0]) < box->near && fabs(step[1]) < box->near && fabs(step[2]) < box->near))
         shorten(box, a, b, step);
     return sqrt(step[0] * step[0] + step[1] * step[1] + step[2] * step[2]);
 }

@@ -133,7 +133,7 @@ static inline const char *scan_double(const char *p, double *value)
 }
 
 /* The same for a float. Rounding to double first changes it only where the double lies half-way between two floats; all
- * numbers that come here, 0 or from 1e-22 to 2^53 * 1e22, are normal floats. Short ones are quotients of exact floats. */
+ * long numbers, 0 or from 1e-22 to 2^53 * 1e22, are normal floats. Short ones are quotients of exact floats. */
 static inline const char *scan_float(const char *p, float *value)
 {
     double number;

@@ -108,6 +108,12 @@ TEST(speeds_go_the_short_way_round_the_box)
     assert_near(s.speeds[0], sqrt(0.5), 1e-6);
     take(&s, 2, 1, first, id, 0.0f); /* no box: the unwrapped distance */
     assert_near(s.speeds[0], sqrt(2.0 * 9.5 * 9.5), 1e-5);
+    for (int k = 0; k < 2; k++) { /* about half of an edge */
+        const float half[] = {9.75f - (k ? 5.25f : 4.75f), 5, 0.25f, 1};
+        take(&s, 3 + 2 * k, 1, half, id, 10.0f);
+        assert_near(s.speeds[0], 4.75, 1e-6);
+        take(&s, 4 + 2 * k, 1, first, id, 10.0f);
+    }
     cgt_speed_release(s.tracker);
 }
 
