@@ -26,12 +26,17 @@ static int copy_floats(void **array, size_t *capacity, const float *from, size_t
     return 0;
 }
 
-int cgt_frame_copy_set(frame_copy *copy, const cgt_trajectory_frame *frame)
+void cgt_frame_copy_refer(frame_copy *copy, const cgt_trajectory_frame *frame)
 {
-    const int triangles = frame->kind == CGT_TRAJECTORY_TRIANGLES;
     copy->frame = *frame;
     copy->frame.id = copy->frame.type = NULL;
     copy->frame.velocity = NULL;
+}
+
+int cgt_frame_copy_set(frame_copy *copy, const cgt_trajectory_frame *frame)
+{
+    const int triangles = frame->kind == CGT_TRAJECTORY_TRIANGLES;
+    cgt_frame_copy_refer(copy, frame);
     if (copy_floats(&copy->places, &copy->place_bytes, triangles ? frame->position : frame->xyzr, frame->count,
                     triangles ? 3 : 4))
         return -1;

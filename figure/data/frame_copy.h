@@ -21,6 +21,9 @@ typedef struct frame_copy {
  * again; a copy begins as all zero. Returns 0, or -1 where there is no memory. */
 int cgt_frame_copy_set(frame_copy *copy, const cgt_trajectory_frame *frame);
 
+/* The same, but places and normals are the frame's own, which must stay as they are. */
+void cgt_frame_copy_refer(frame_copy *copy, const cgt_trajectory_frame *frame);
+
 void cgt_frame_copy_free(frame_copy *copy);
 
 /* A frame with all arrays its own, in one block that free() takes. NULL: no memory. *bytes gets the block's size. */

@@ -66,7 +66,9 @@ void cgt_particle_radii(const particle_rules *r, const cgt_trajectory_frame *f, 
                         float *radius)
 {
     double values[BLOCK];
-    for (uint32_t k = 0; k < count; k++) {
+    for (uint32_t k = 0; k < count && !r->radius && !r->radius_count; k++)
+        radius[k] = r->radius_scale * f->xyzr[4 * (size_t)(first + k) + 3];
+    for (uint32_t k = 0; k < count && (r->radius || r->radius_count); k++) {
         if (r->radius && k % BLOCK == 0)
             cgt_expression_values(r->radius, first + k, count - k < BLOCK ? count - k : BLOCK, values);
         radius[k] = r->radius_scale * (r->radius ? (float)values[k % BLOCK] : radius_of(r, f, first + k));

@@ -65,6 +65,7 @@ int cgt_id_match_prepare(id_match *m, const uint32_t *id, uint32_t count)
 {
     m->slots_valid = 0;
     const int moved = id && count && m->has_id && (count > m->count || memcmp(id, m->id, count * sizeof *id) != 0);
+    m->is_same = !moved && !id == !m->has_id && count == m->count;
     return moved ? make_slots(m) : 0;
 }
 

@@ -17,6 +17,7 @@ typedef struct id_match {
     uint32_t *slots;   /* index + 1 of a sphere, by a hash of its id; 0 is free */
     size_t slot_count; /* a power of two, at least twice count */
     int slots_valid;
+    int is_same; /* after cgt_id_match_prepare: this frame has the same spheres in the same order */
 } id_match;
 
 /* Makes these `count` spheres those of the frame before; id NULL: they have none. Returns 0, or -1 where there is no

@@ -17,19 +17,19 @@ static void cross(const double a[3], const double b[3], double out[3])
 periodic_box cgt_periodic_box_of(const cgt_trajectory_frame *f)
 {
     periodic_box box;
+    double longest = 0.0; /* of rows, by the sum of their numbers: no share is larger than that times the step */
     memset(&box, 0, sizeof box);
     memcpy(box.edge, f->box_edge, sizeof box.edge);
-    box.is_open = 1;
     for (int e = 0; e < 3; e++) {
         double normal[3], volume = 0.0;
         cross(f->box_edge[(e + 1) % 3], f->box_edge[(e + 2) % 3], normal);
         for (int c = 0; c < 3; c++)
             volume += normal[c] * f->box_edge[e][c];
-        for (int c = 0; c < 3 && volume != 0.0 && f->periodic[e] != 0 && !f->unwrapped[e]; c++) {
+        for (int c = 0; c < 3 && volume != 0.0 && f->periodic[e] != 0 && !f->unwrapped[e]; c++)
             box.row[e][c] = normal[c] / volume;
-            box.is_open = 0;
-        }
+        longest = fmax(longest, fabs(box.row[e][0]) + fabs(box.row[e][1]) + fabs(box.row[e][2]));
     }
+    box.near = longest > 0.0 ? 0.5 / longest : INFINITY;
     return box;
 }
 

@@ -13,7 +13,7 @@
 typedef struct periodic_box {
     double edge[3][3];
     double row[3][3];
-    int is_open; /* all rows are zeros */
+    double near; /* a step that is shorter along x, y and z goes through no boundary */
 } periodic_box;
 
 periodic_box cgt_periodic_box_of(const cgt_trajectory_frame *frame);

@@ -16,8 +16,9 @@ struct speed_tracker {
     cgt_context *context;
     uint32_t capacity; /* spheres that the arrays hold */
     float *speed;
-    float *last_xyz, *xyz; /* of the frame before, and of the one that is being processed: 3 floats each */
-    id_match last;         /* its spheres */
+    float *last_xyz; /* of the frame before: 3 floats each */
+    float *xyz;      /* of the one that is being processed, where its spheres are in another order; NULL: not yet */
+    id_match last;   /* its spheres */
     int64_t last_step;
     int has_last;
     float *first;         /* speeds of the run's first frame; NULL: unknown */
@@ -68,7 +69,7 @@ static int reserve(speed_tracker *t, uint32_t count)
 {
     if (count <= t->capacity)
         return 0;
-    if (grow(&t->speed, count, 1) || grow(&t->last_xyz, count, 3) || grow(&t->xyz, count, 3))
+    if (grow(&t->speed, count, 1) || grow(&t->last_xyz, count, 3) || (t->xyz && grow(&t->xyz, count, 3)))
         return -1;
     t->capacity = count;
     return 0;
@@ -80,18 +81,23 @@ static const uint32_t *ids(const cgt_trajectory_frame *frame)
     return frame->kind == CGT_TRAJECTORY_TRIANGLES ? NULL : frame->id;
 }
 
-/* Distance from a to b, the short way through boundaries. */
-static double distance(const periodic_box *box, const float *a, const float *b)
+/* Takes the boundaries that a step from a to b goes through out of it. */
+static void shorten(const periodic_box *box, const float *a, const float *b, double step[3])
 {
-    double sum = 0.0, count[3];
-    const int crossed = !box->is_open && cgt_periodic_box_crossed(box, a, b, count);
-    for (int c = 0; c < 3; c++) {
-        double d = (double)b[c] - (double)a[c];
-        for (int e = 0; e < 3 && crossed; e++)
-            d -= count[e] * box->edge[e][c];
-        sum += d * d;
-    }
-    return sqrt(sum);
+    double count[3];
+    const int crossed = cgt_periodic_box_crossed(box, a, b, count);
+    for (int c = 0; c < 3 && crossed; c++)
+        for (int e = 0; e < 3; e++)
+            step[c] -= count[e] * box->edge[e][c];
+}
+
+/* Distance from a to b, the short way through boundaries. */
+static inline double distance(const periodic_box *box, const float *a, const float *b)
+{
+    double step[3] = {(double)b[0] - (double)a[0], (double)b[1] - (double)a[1], (double)b[2] - (double)a[2]};
+    if (!(fabs(step[0]) < box->near && fabs(step[1]) < box->near && fabs(step[2]) < box->near))
+        shorten(box, a, b, step);
+    return sqrt(step[0] * step[0] + step[1] * step[1] + step[2] * step[2]);
 }
 
 /* ---- A frame, in pieces ------------------------------------------------------------------------------------- */
@@ -103,6 +109,8 @@ typedef struct speed_job {
     const cgt_trajectory_frame *frame;
     const periodic_box *box;
     int later;           /* than the frame before */
+    int is_same;         /* spheres as that frame has, in the same order */
+    float *xyz;          /* where places are kept for the next frame */
     float (*boxless)[3]; /* of each piece: its longest steps; NULL where there is a box */
 } speed_job;
 
@@ -114,10 +122,12 @@ static void note_step(float longest[3], const float *a, const float *b)
     }
 }
 
-static float from_position(const speed_job *job, uint32_t piece, uint32_t i)
+static inline float from_position(const speed_job *job, float longest[3], uint32_t i)
 {
     const speed_tracker *const t = job->tracker;
-    const uint32_t last = job->later ? id_match_find(&t->last, ids(job->frame), job->frame->count, i) : UINT32_MAX;
+    const uint32_t last = job->is_same ? i
+                          : job->later ? id_match_find(&t->last, ids(job->frame), job->frame->count, i)
+                                       : UINT32_MAX;
     if (last == UINT32_MAX)
         return NAN;
     const float *const before = t->last_xyz + 3 * (size_t)last, *const place = frame_place(job->frame, i);
@@ -125,7 +135,7 @@ static float from_position(const speed_job *job, uint32_t piece, uint32_t i)
     if (!isfinite(moved))
         return NAN;
     if (job->boxless)
-        note_step(job->boxless[piece], before, place);
+        note_step(longest, before, place);
     return (float)moved;
 }
 
@@ -142,11 +152,14 @@ static void process_piece(void *user, uint32_t piece)
 {
     const speed_job *const job = user;
     const cgt_trajectory_frame *const frame = job->frame;
+    float longest[3] = {0.0f, 0.0f, 0.0f}; /* not in job->boxless, whose cache lines pieces share */
     const uint32_t begin = piece * PIECE, end = frame->count - begin < PIECE ? frame->count : begin + PIECE;
     for (uint32_t i = begin; i < end; i++) {
-        job->tracker->speed[i] = frame->velocity ? from_velocity(frame, i) : from_position(job, piece, i);
-        memcpy(job->tracker->xyz + 3 * (size_t)i, frame_place(frame, i), 3 * sizeof(float));
+        job->tracker->speed[i] = frame->velocity ? from_velocity(frame, i) : from_position(job, longest, i);
+        memcpy(job->xyz + 3 * (size_t)i, frame_place(frame, i), 3 * sizeof(float));
     }
+    if (job->boxless)
+        memcpy(job->boxless[piece], longest, sizeof longest);
 }
 
 static int process(speed_tracker *t, const cgt_trajectory_frame *frame)
@@ -154,9 +167,15 @@ static int process(speed_tracker *t, const cgt_trajectory_frame *frame)
     const periodic_box box = cgt_periodic_box_of(frame);
     const uint32_t pieces = frame->count / PIECE + (frame->count % PIECE > 0);
     const int has_box = !(frame->box_min[0] > frame->box_max[0]);
-    speed_job job = {t, frame, &box, t->has_last && frame->step > t->last_step, NULL};
-    if (job.later && !frame->velocity && cgt_id_match_prepare(&t->last, ids(frame), frame->count))
+    speed_job job = {.tracker = t, .frame = frame, .box = &box, .later = t->has_last && frame->step > t->last_step};
+    const int is_compared = job.later && !frame->velocity;
+    if (is_compared && cgt_id_match_prepare(&t->last, ids(frame), frame->count))
         return -1;
+    job.is_same = is_compared && t->last.is_same;
+    const int is_moved = is_compared && !job.is_same;
+    if (is_moved && !t->xyz && grow(&t->xyz, (size_t)t->capacity + 1, 3))
+        return -1;
+    job.xyz = is_moved ? t->xyz : t->last_xyz;
     if (!has_box && pieces && !(job.boxless = calloc(pieces, sizeof *job.boxless)))
         return -1;
     cgt_context_run_tasks(t->context, process_piece, &job, pieces);
@@ -164,12 +183,11 @@ static int process(speed_tracker *t, const cgt_trajectory_frame *frame)
         for (int c = 0; c < 3; c++)
             t->boxless[c] = fmaxf(t->boxless[c], job.boxless[k][c]);
     free(job.boxless);
-    float *const xyz = t->last_xyz;
-    t->last_xyz = t->xyz;
-    t->xyz = xyz;
     t->last_step = frame->step;
     t->has_last = 1;
-    return cgt_id_match_remember(&t->last, ids(frame), frame->count);
+    t->xyz = is_moved ? t->last_xyz : t->xyz;
+    t->last_xyz = job.xyz;
+    return job.is_same ? 0 : cgt_id_match_remember(&t->last, ids(frame), frame->count);
 }
 
 int cgt_speed_look_ahead(speed_tracker *t, const cgt_trajectory_frame *next)

@@ -42,16 +42,6 @@ static void keep(bulk_sample *heap, uint32_t *count, const bulk_sample *sample)
     heap[at] = *sample;
 }
 
-/* The finaliser of MurmurHash3 (Austin Appleby): a bijection, so that no two primitives of a frame share a hash. */
-static uint64_t mix(uint64_t x)
-{
-    x ^= x >> 33;
-    x *= 0xff51afd7ed558ccdu;
-    x ^= x >> 33;
-    x *= 0xc4ceb9fe1a85ec53u;
-    return x ^ x >> 33;
-}
-
 /* ---- Particles ---------------------------------------------------------------------------------------------- */
 
 enum { SLOTS = 4 * BULK_SAMPLES, MOST_PARTICLES = 2 * BULK_SAMPLES };
@@ -86,10 +76,9 @@ static void sort_particles(bulk *b)
         *slot_of(b, b->particle[i].hash) = (uint16_t)(i + 1);
 }
 
+/* Follows a particle that is not given up. */
 static void follow(bulk *b, uint64_t hash, const float min[3], const float max[3])
 {
-    if (b->end && hash >= b->end)
-        return;
     uint16_t *slot = slot_of(b, hash);
     if (!*slot) {
         if (b->particles == MOST_PARTICLES) {
@@ -114,11 +103,11 @@ static void follow(bulk *b, uint64_t hash, const float min[3], const float max[3
 
 /* ---- All ---------------------------------------------------------------------------------------------------- */
 
-void cgt_bulk_add(bulk *b, uint64_t frame, uint32_t primitive, uint32_t id, const float place[3], float reach)
+void cgt_bulk_follow(bulk *b, uint64_t hash, const float place[3]) { follow(b, hash, place, place); }
+
+void cgt_bulk_keep(bulk *b, uint64_t hash, const float place[3], float reach)
 {
-    follow(b, mix(id + UINT64_C(0x9E3779B97F4A7C15)), place, place);
-    const bulk_sample sample = {mix(frame << 32 ^ primitive), {{place[0], place[1], place[2], reach}}};
-    b->seen++;
+    const bulk_sample sample = {hash, {{place[0], place[1], place[2], reach}}};
     keep(b->sample, &b->count, &sample);
 }
 
@@ -140,8 +129,8 @@ void cgt_bulk_merge(bulk *sum, const bulk *part)
     for (uint32_t i = 0; i < part->count; i++)
         keep(sum->sample, &sum->count, &part->sample[i]);
     for (uint32_t i = 0; i < part->particles; i++)
-        follow(sum, part->particle[i].hash, part->particle[i].min, part->particle[i].max);
-    cgt_bulk_sort(sum);
+        if (bulk_follows(sum, part->particle[i].hash))
+            follow(sum, part->particle[i].hash, part->particle[i].min, part->particle[i].max);
 }
 
 static int compare(const void *a, const void *b)
@@ -161,7 +150,7 @@ void cgt_bulk_sort_places(const bulk *b, int axis, float *sorted)
 
 void cgt_bulk_values_add(bulk_values *v, uint64_t frame, uint32_t primitive, double value)
 {
-    bulk_sample sample = {mix(frame << 32 ^ primitive), {{0.0f}}}; /* the bytes beside the value, too */
+    bulk_sample sample = {bulk_mix(frame << 32 ^ primitive), {{0.0f}}}; /* the bytes beside the value, too */
     sample.value = value;
     keep(v->sample, &v->count, &sample);
 }
@@ -172,7 +161,6 @@ void cgt_bulk_values_merge(bulk_values *sum, const bulk_values *part)
 {
     for (uint32_t i = 0; i < part->count; i++)
         keep(sum->sample, &sum->count, &part->sample[i]);
-    cgt_bulk_values_sort(sum);
 }
 
 static int compare_values(const void *a, const void *b)

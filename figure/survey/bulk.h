@@ -43,15 +43,40 @@ typedef struct bulk {
     uint16_t slot[4 * BULK_SAMPLES]; /* index + 1 of a particle, by its hash; 0: free */
 } bulk;
 
+/* The finaliser of MurmurHash3 (Austin Appleby): a bijection, so that no two primitives of a frame share a hash. */
+static inline uint64_t bulk_mix(uint64_t x)
+{
+    x ^= x >> 33;
+    x *= 0xff51afd7ed558ccdu;
+    x ^= x >> 33;
+    x *= 0xc4ceb9fe1a85ec53u;
+    return x ^ x >> 33;
+}
+
+/* Whether the particle of this hash is not given up. */
+static inline int bulk_follows(const bulk *b, uint64_t hash) { return b->end == 0 || hash < b->end; }
+
+/* Of what bulk_add keeps, which is little of a large run. */
+void cgt_bulk_follow(bulk *b, uint64_t hash, const float place[3]);
+void cgt_bulk_keep(bulk *b, uint64_t hash, const float place[3], float reach);
+
 /* Adds a finite place and the reach of its primitive; a bulk that is all zero is empty. frame, primitive: their
  * numbers, for the hash; id: of the particle in all frames, the number where there is none. */
-void cgt_bulk_add(bulk *b, uint64_t frame, uint32_t primitive, uint32_t id, const float place[3], float reach);
+static inline void bulk_add(bulk *b, uint64_t frame, uint32_t primitive, uint32_t id, const float place[3], float reach)
+{
+    const uint64_t particle = bulk_mix(id + UINT64_C(0x9E3779B97F4A7C15)), sample = bulk_mix(frame << 32 ^ primitive);
+    b->seen++;
+    if (bulk_follows(b, particle))
+        cgt_bulk_follow(b, particle, place);
+    if (b->count < BULK_SAMPLES || sample < b->sample[0].hash)
+        cgt_bulk_keep(b, sample, place, reach);
+}
 
 /* Brings the samples into one order, whatever theirs was; more may be added. */
 void cgt_bulk_sort(bulk *b);
 void cgt_bulk_values_sort(bulk_values *v);
 
-/* Adds a finite value; the numbers are those of cgt_bulk_add. */
+/* Adds a finite value; the numbers are those of bulk_add. */
 void cgt_bulk_values_add(bulk_values *v, uint64_t frame, uint32_t primitive, double value);
 
 /* The 1 % and the 99 % quantile of the samples above `above`; of fewer than 101 the least and the greatest. Returns 0
@@ -61,7 +86,7 @@ int cgt_bulk_values_range(const bulk_values *v, double above, double *low, doubl
 /* Sorts the samples' coordinates along an axis, or, as axis 3, how far their primitives reach: `count` floats. */
 void cgt_bulk_sort_places(const bulk *b, int axis, float *sorted);
 
-/* Adds the samples of another one, and sorts them. */
+/* Adds the samples of another one. */
 void cgt_bulk_merge(bulk *sum, const bulk *part);
 void cgt_bulk_values_merge(bulk_values *sum, const bulk_values *part);
 

@@ -118,7 +118,12 @@ static void survey_block(survey *s, const frame_sequence *sequence, const camera
             continue;
         s->drawable++;
         bound_sphere(&bounds, sphere, radius[k]);
-        cgt_bulk_add(&s->bulk, f->number, first + k, f->id ? f->id[first + k] : first + k, sphere, radius[k]);
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        const float *const sphere = f->xyzr + 4 * (size_t)(first + k);
+        if (!is_drawable[k])
+            continue;
+        bulk_add(&s->bulk, f->number, first + k, f->id ? f->id[first + k] : first + k, sphere, radius[k]);
     }
     memcpy(s->bounds_min, &bounds.min, sizeof s->bounds_min);
     memcpy(s->bounds_max, &bounds.max, sizeof s->bounds_max);
@@ -155,7 +160,7 @@ static void survey_triangle(survey *s, const cgt_trajectory_frame *frame, const 
         centre[c] = 0.5f * low + 0.5f * high;
         reach = fmaxf(reach, 0.5f * high - 0.5f * low);
     }
-    cgt_bulk_add(&s->bulk, frame->number, i, i, centre, reach);
+    bulk_add(&s->bulk, frame->number, i, i, centre, reach);
 }
 
 static void survey_time(survey_times *t, const cgt_trajectory_frame *frame, int is_first)

@@ -164,7 +164,7 @@ static int find_origin(const cgt_trajectory_frame *frame, double origin[3])
     for (uint32_t i = 0; i < frame->count && frame->kind == CGT_TRAJECTORY_SPHERES; i++) {
         const float *const p = frame->xyzr + 4 * (size_t)i;
         if (isfinite(p[0] + p[1] + p[2] + p[3]))
-            cgt_bulk_add(&b, 0, i, i, p, p[3]);
+            bulk_add(&b, 0, i, i, p, p[3]);
     }
     return cgt_origin_of_bulk(&b, origin);
 }

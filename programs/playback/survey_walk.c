@@ -31,6 +31,9 @@ int survey_walk_run(survey_walk *walk, frame_source *source, char *error, size_t
         state = visit(source, walk->total, walk->total < most, error, error_size);
         if (state != 1)
             break;
+        /* After the first frame all others are wanted. */
+        if (walk->total > 0 && walk->total + 1 < most)
+            frame_keep_ahead(&source->keep, source->file);
         const int looked = walk->total < most ? walk->look(walk->user, error, error_size) : 0;
         wrong = looked < 0;
         if (wrong)
@@ -38,7 +41,7 @@ int survey_walk_run(survey_walk *walk, frame_source *source, char *error, size_t
         walk->frames += walk->total < most;
         walk->total++;
         most = looked ? walk->total : most;
-        program_progress_update(&progress, (double)walk->total, cgt_trajectory_progress(source->file));
+        program_progress_update(&progress, (double)walk->total, frame_keep_progress(&source->keep, source->file));
     }
     program_progress_end(&progress);
     frame_keep_end(&source->keep, state == 0 && !source->follows);

@@ -71,6 +71,7 @@ int trajectory_reserve(cgt_trajectory *t, size_t count, size_t expected)
         return reserve_columns(t, count);
     size_t capacity = s->capacity > SIZE_MAX / 2 ? SIZE_MAX : 2 * s->capacity;
     capacity = capacity < 4096 ? 4096 : capacity;
+    capacity = capacity < s->given ? s->given : capacity;
     capacity = capacity > expected ? expected : capacity;
     capacity = capacity < count ? count : capacity;
     capacity = capacity == 0 ? 1 : capacity;
@@ -83,6 +84,45 @@ int trajectory_reserve(cgt_trajectory *t, size_t count, size_t expected)
         return trajectory_fail(t, t->text.line, "not enough memory for %zu spheres", capacity);
     s->capacity = capacity;
     return reserve_columns(t, count);
+}
+
+size_t trajectory_can_give(const cgt_trajectory *t, const cgt_trajectory_frame *f)
+{
+    enum { LEAST = 1 << 16 }; /* spheres, whose copy takes some 1 ms */
+    const size_t sphere = 4 * sizeof *f->xyzr + (f->id != NULL) * sizeof *f->id + (f->type != NULL) * sizeof *f->type +
+                          (f->velocity != NULL) * 3 * sizeof *f->velocity + (f->element != NULL) * sizeof *f->element;
+    const int is_full = t->store.capacity - f->count <= f->count / 8; /* arrays of the largest frame are a waste */
+    return t->format->gives_arrays && f->count >= LEAST && is_full ? t->store.capacity * sphere : 0;
+}
+
+void trajectory_give(cgt_trajectory *t, const cgt_trajectory_frame *f, trajectory_store *to)
+{
+    trajectory_store *const s = &t->store;
+    trajectory_store unused = *s;
+    unused.xyzr = NULL;
+    unused.id = f->id != NULL ? NULL : s->id;
+    unused.type = f->type != NULL ? NULL : s->type;
+    unused.velocity = f->velocity != NULL ? NULL : s->velocity;
+    unused.element = f->element != NULL ? NULL : s->element;
+    trajectory_store_free(&unused);
+    *to = (trajectory_store){.xyzr = s->xyzr,
+                             .id = f->id != NULL ? s->id : NULL,
+                             .type = f->type != NULL ? s->type : NULL,
+                             .velocity = f->velocity != NULL ? s->velocity : NULL,
+                             .element = f->element != NULL ? s->element : NULL};
+    t->store = (trajectory_store){.given = s->capacity};
+}
+
+void trajectory_store_free(trajectory_store *s)
+{
+    free(s->xyzr);
+    free(s->id);
+    free(s->type);
+    free(s->velocity);
+    free(s->element);
+    free(s->residue);
+    free(s->site);
+    free(s->place);
 }
 
 int trajectory_text_place(const cgt_trajectory *t, size_t axis, text_span word, float *place)

@@ -13,22 +13,10 @@
 #include "trajectory/trajectory_columns.h"
 #include "trajectory/trajectory_formats.h"
 #include "trajectory/trajectory_input.h"
+#include "trajectory/trajectory_store.h"
 #include "trajectory/text/text_reader.h"
 
 #define DEFAULT_RADIUS 0.5f
-
-typedef struct trajectory_store {
-    size_t capacity; /* spheres */
-    float *xyzr;
-    uint32_t *id;
-    uint32_t *type;
-    float *velocity;
-    uint8_t *element;
-    uint32_t *residue;            /* of atoms in residues; see trajectory_atoms.h */
-    uint8_t *site;                /* 1 for what is no atom, where the frame has sites */
-    char *place;                  /* of atoms at alternate places */
-    int has_residues, has_places; /* of the frame */
-} trajectory_store;
 
 /* What may be doubtful about a file; each is told once, with the first line where it shows. */
 typedef enum trajectory_doubt {
@@ -72,6 +60,7 @@ typedef struct trajectory_format {
     int lists_some;   /* bonds that it lists may be a part of all; else they are all, where there are any */
     int is_followed;  /* may be read while it is written */
     int is_binary;    /* it reads t->file, not lines alone */
+    int gives_arrays; /* a frame's spheres are in the store alone, written anew for each: it may be given away */
     int keeps_state;  /* t->state stays when rewinding, and with it the triangles of all frames: begin sets the rest */
     float unit;       /* an Angstrom in the file's unit; 0: the same */
     /* Bytes of the format's own state, t->state: zero at first and after rewinding; it stays from file to file of a

@@ -341,14 +341,7 @@ void cgt_trajectory_close(cgt_trajectory *t)
         t->format->end(t);
     trajectory_input_close(&t->input);
     text_reader_free(&t->text);
-    free(t->store.xyzr);
-    free(t->store.id);
-    free(t->store.type);
-    free(t->store.velocity);
-    free(t->store.element);
-    free(t->store.residue);
-    free(t->store.site);
-    free(t->store.place);
+    trajectory_store_free(&t->store);
     bond_list_free(&t->bonds);
     columns_free(&t->columns);
     topology_close(t->topology);

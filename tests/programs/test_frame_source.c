@@ -86,11 +86,11 @@ static int remove_run(void **state)
 
 static frame_sequence sequences[2]; /* of the sources that are open at once */
 
-static void open_run(frame_source *source)
+static void open_file(frame_source *source, const char *name)
 {
     static uint32_t opened;
     frame_sequence *const sequence = &sequences[opened++ % 2];
-    const char *const paths[] = {path};
+    const char *const paths[] = {name};
     cgt_trajectory_options options;
     char error[300];
     cgt_trajectory_options_init(&options);
@@ -99,6 +99,8 @@ static void open_run(frame_source *source)
     sequence->tracker = cgt_speed_create(context);
     assert_non_null(sequence->tracker);
 }
+
+static void open_run(frame_source *source) { open_file(source, path); }
 
 static void close_run(frame_source *source)
 {
@@ -261,6 +263,7 @@ TEST(threads_do_not_change_surveys)
         options.threads = (int)threads;
         assert_int_equal(frame_source_open(&source, &sequences[0], paths, 1, &options, error, sizeof error), 0);
         sequences[0].tracker = cgt_speed_create(some);
+        source.keep.most = threads % 2 ? 0 : SIZE_MAX; /* then the next frame is read while one is looked at */
         assert_int_equal(cgt_frame_sequence_bind(source.sequence, cgt_expression_parse("y + z", error, sizeof error),
                                                  error, sizeof error),
                          0);
@@ -269,8 +272,7 @@ TEST(threads_do_not_change_surveys)
         assert_true(one.values == 446298 && one.id_max == 149999);
         if (threads > 1)
             assert_memory_equal(&many, &one, sizeof one);
-        else
-            expect_reach(&source, &one);
+        expect_reach(&source, &one);
         cgt_expression_free(source.sequence->formulas[0]);
         close_run(&source);
         cgt_context_release(some);
@@ -363,6 +365,72 @@ TEST(frames_of_a_survey_are_kept)
         close_run(&kept);
         close_run(&fresh);
     }
+}
+
+/* Sphere k is at k + number, so that each frame is known; the file may end in the midst of one more. */
+static void write_large(const char *name, uint32_t frames, uint32_t spheres, int is_cut)
+{
+    FILE *const file = fopen(name, "w");
+    assert_non_null(file);
+    for (uint32_t i = 0; i < frames + (is_cut ? 1 : 0); i++) {
+        fprintf(file, "%u\n\n", spheres);
+        for (uint32_t k = 0; k < (i < frames ? spheres : 10000); k++)
+            fprintf(file, "%s %u 0.%u 1\n", k % 5 ? "C" : "O", k + i, k);
+    }
+    assert_int_equal(fclose(file), 0);
+}
+
+static int stop_at_second(void *user, char *error, size_t error_size)
+{
+    (void)error;
+    (void)error_size;
+    stop = ++*(uint32_t *)user == 2;
+    return 0;
+}
+
+/* Large frames are read ahead, by a thread, and keep the arrays that they were read into. */
+TEST(large_frames_are_kept_and_read_ahead)
+{
+    enum { LARGE = 70000, COUNT = 5 };
+    static const size_t budgets[] = {0, 2 * LARGE * 21 + 10000, SIZE_MAX};
+    static survey found;
+    char name[] = "frame_source_ahead_XXXXXX", error[300];
+    const int descriptor = mkstemp(name);
+    assert_true(descriptor >= 0 && close(descriptor) == 0);
+    for (uint32_t turn = 0; turn < 2 * TEST_COUNT(budgets); turn++) {
+        const int is_cut = (int)(turn % 2);
+        const survey_plan plan = {.most = UINT64_MAX, .quiet = 1, .stop = &stop, .context = context};
+        frame_source kept, fresh;
+        uint32_t looked = 0;
+        survey_walk stopped = {.most = UINT64_MAX, .quiet = 1, .stop = &stop, .look = stop_at_second, .user = &looked};
+        write_large(name, COUNT, LARGE, is_cut);
+        open_file(&kept, name);
+        open_file(&fresh, name);
+        kept.keep.most = budgets[turn / 2];
+        assert_int_equal(survey_run(&kept, &plan, &found, error, sizeof error), 0);
+        assert_true(found.frames == COUNT && found.is_cut == is_cut);
+        assert_true(kept.keep.bytes <= kept.keep.most && (kept.keep.bytes > 0) == (kept.keep.most > 0));
+        for (uint64_t number = 0; number < COUNT; number++) {
+            assert_int_equal(frame_source_read(&kept, number, error, sizeof error), 1);
+            assert_int_equal(frame_source_read(&fresh, number, error, sizeof error), 1);
+            check_same_frame(&kept, &fresh);
+            assert_int_equal(frame_keep_has(&kept.keep, &kept.sequence->frame),
+                             number < 2 ? turn > 1 : kept.keep.most == SIZE_MAX);
+            kept.sequence->frame.xyzr += 4; /* as unwrapped places are not those that are kept */
+            assert_int_equal(frame_keep_has(&kept.keep, &kept.sequence->frame), 0);
+        }
+        assert_int_equal(frame_source_read(&kept, COUNT, error, sizeof error), is_cut ? -1 : 0);
+        assert_true(!is_cut || strstr(error, "the file ends after 10000 of 70000 spheres"));
+        close_run(&kept);
+        kept = fresh;
+        kept.keep.most = budgets[turn / 2];
+        assert_int_equal(frame_source_rewind(&kept, error, sizeof error), 0);
+        assert_int_equal(survey_walk_run(&stopped, &kept, error, sizeof error), -1); /* while one is read */
+        assert_string_equal(error, "interrupted");
+        stop = 0;
+        close_run(&kept);
+    }
+    assert_int_equal(unlink(name), 0);
 }
 
 TEST(copies_outlive_the_frame)

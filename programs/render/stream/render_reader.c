@@ -60,7 +60,11 @@ static int read_one(render_reader *r, uint64_t chosen)
     if (frame) {
         const double copy = program_seconds();
         swap_index(r, frame);
-        failed = cgt_frame_copy_set(&frame->copy, &r->source->sequence->frame);
+        const int is_kept = frame_keep_has(&r->source->keep, &r->source->sequence->frame);
+        if (is_kept)
+            cgt_frame_copy_refer(&frame->copy, &r->source->sequence->frame);
+        else
+            failed = cgt_frame_copy_set(&frame->copy, &r->source->sequence->frame);
         frame->chosen = chosen;
         frame->speed_from = r->source->sequence->speed_from;
         frame->read_ms = (read - begin + program_seconds() - copy) * 1e3;

@@ -174,6 +174,7 @@ static int lammps_skip(cgt_trajectory *t)
 const trajectory_format trajectory_format_lammps = {
     .is_series = 1,
     .is_followed = 1,
+    .gives_arrays = 1,
     .state_size = sizeof(lammps_state),
     .begin = lammps_begin,
     .read = lammps_read,

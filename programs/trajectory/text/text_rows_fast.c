@@ -3,17 +3,20 @@
  *
  * Rows straight from the reader's buffer into the arrays of a frame. A row with anything unusual (a new name, a number
  * in another form, a missing column) is left alone: text_rows.c reads it, finds the error or the doubt, and tells the
- * line. With several threads the lines are cut into as many parts; each counts its rows, then knows where they go, and
- * reads them. Names are only looked up, so that the order of the rows, which numbers them, is that of one thread. */
+ * line. With several threads the lines are cut into parts; the rows of each are counted, which tells where they go, and
+ * read. Names are only looked up, so that the order of the rows, which numbers them, is that of one thread. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/text/text_rows.h"
 #include "trajectory/text/text_scan.h"
 
 #include <pthread.h>
+#include <stdatomic.h>
 #include <string.h>
 
 #define PART_BYTES ((size_t)1 << 19) /* text for a thread: starting one takes some 50 us, reading this 1 ms */
 #define MOST_THREADS 64
+#define THREAD_PARTS 4 /* of a thread: those that are left are taken by the fastest */
+#define MOST_PARTS (MOST_THREADS * THREAD_PARTS)
 
 typedef struct fast_part {
     const cgt_trajectory *t;
@@ -84,8 +87,9 @@ static inline const char *scan_place(const cgt_trajectory *t, size_t axis, const
     return p;
 }
 
-/* Reads a value by its role. Returns what follows it, or NULL. */
-static inline const char *scan_value(fast_part *f, row_role role, const char *p, row *r)
+/* Reads a value by its role. Returns what follows it, or NULL. is_plain, a constant: as has_plain_columns. */
+static inline __attribute__((always_inline)) const char *scan_value(fast_part *f, row_role role, const char *p, row *r,
+                                                                    int is_plain)
 {
     float number;
     switch (role) {
@@ -102,6 +106,8 @@ static inline const char *scan_value(fast_part *f, row_role role, const char *p,
     case ROW_X:
     case ROW_Y:
     case ROW_Z:
+        if (is_plain)
+            break;
         if (f->plan->scaled & (1u << (role - ROW_X)))
             return scan_double(p, &r->fraction[role - ROW_X]);
         return scan_place(f->t, role - ROW_X, p, &r->value[role]);
@@ -113,18 +119,19 @@ static inline const char *scan_value(fast_part *f, row_role role, const char *p,
     return scan_float(p, &r->value[role]);
 }
 
-/* Reads row i. Returns the start of the next line, or NULL: the row is not of a usual form. */
-static const char *scan_row(fast_part *f, const char *p, size_t i, row *r)
+/* Reads row i. Returns the start of the next line, or NULL: the row is not of a usual form. is_plain: as above. */
+static inline __attribute__((always_inline)) const char *scan_row(fast_part *f, const char *p, size_t i, row *r,
+                                                                  int is_plain)
 {
     const row_plan *const plan = f->plan;
     float value;
     for (uint32_t column = 0; column < plan->columns; column++) {
         while (*p == ' ' || *p == '\t')
             p++;
-        const char *const after = scan_value(f, (row_role)plan->role[column], p, r);
+        const char *const after = scan_value(f, (row_role)plan->role[column], p, r, is_plain);
         if (after == NULL || !is_end(*after))
             return NULL;
-        if (plan->slot[column] != 0) {
+        if (!is_plain && plan->slot[column] != 0) {
             if (scan_float(p, &value) != after)
                 return NULL;
             columns_values(f->t, plan->slot[column])[i] = value;
@@ -141,19 +148,29 @@ static const char *scan_row(fast_part *f, const char *p, size_t i, row *r)
     return *p == '\n' ? p + 1 : NULL;
 }
 
+/* Most rows: what columns say goes into the fields of a row alone, as it is. */
+static int has_plain_columns(const fast_part *f)
+{
+    int is_plain = f->plan->scaled == 0 && !f->t->has_origin;
+    for (uint32_t column = 0; column < f->plan->columns; column++)
+        is_plain &= f->plan->slot[column] == 0;
+    return is_plain;
+}
+
 /* Reads rows up to one of another form. */
 static void read_part(fast_part *f)
 {
     const row_plan *const plan = f->plan;
     const float radius = trajectory_default_radius(f->t);
     const char *p = f->begin;
+    const int is_plain = has_plain_columns(f);
     row r;
     memset(&r, 0, sizeof r);
     while (f->done < f->rows && p < f->end) {
         const size_t i = f->at + f->done;
         r.element = 0;
         r.value[ROW_RADIUS] = radius;
-        const char *const next = scan_row(f, p, i, &r);
+        const char *const next = is_plain ? scan_row(f, p, i, &r, 1) : scan_row(f, p, i, &r, 0);
         if (next == NULL)
             break;
         if (plan->place != NULL)
@@ -168,71 +185,83 @@ static void read_part(fast_part *f)
 
 /* ---- Threads ------------------------------------------------------------------------------------------------ */
 
+/* By blocks whose counts fit a byte: compilers make vectors of that. */
 static void count_part(fast_part *f)
 {
-    const char *p = f->begin;
+    enum { BLOCK = 240 };
     size_t rows = 0;
-    while (p < f->end) {
-        const char *const feed = memchr(p, '\n', (size_t)(f->end - p));
-        p = feed + 1; /* the part ends in a line feed */
-        rows++;
+    for (const char *p = f->begin; p < f->end;) {
+        const size_t left = (size_t)(f->end - p), block = left < BLOCK ? left : BLOCK;
+        uint8_t feeds = 0;
+        for (size_t i = 0; i < block; i++)
+            feeds = (uint8_t)(feeds + (p[i] == '\n'));
+        rows += feeds;
+        p += block;
     }
     f->rows = rows;
 }
 
-static void *count_job(void *part)
+/* Parts of one text. Each thread takes the next part that is left, since not all are as fast. */
+typedef struct row_team {
+    void (*run)(fast_part *part);
+    atomic_size_t next;
+    size_t parts;
+    fast_part part[MOST_PARTS];
+} row_team;
+
+/* On copies: parts lie side by side, and threads that count rows in one cache line would wait for each other. */
+static void *run_parts(void *user)
 {
-    count_part(part);
+    row_team *const team = user;
+    for (size_t i; (i = atomic_fetch_add(&team->next, 1)) < team->parts;) {
+        fast_part own = team->part[i];
+        team->run(&own);
+        team->part[i] = own;
+    }
     return NULL;
 }
 
-static void *read_job(void *part)
-{
-    read_part(part);
-    return NULL;
-}
-
-/* Runs a job for each part, on as many threads as can be started. */
-static void run_parts(void *(*job)(void *part), fast_part *parts, size_t count)
+/* Runs each part, on as many threads as can be started. */
+static void run_team(row_team *team, void (*run)(fast_part *part), size_t threads)
 {
     pthread_t thread[MOST_THREADS];
-    int is_running[MOST_THREADS] = {0};
-    for (size_t i = 1; i < count; i++)
-        is_running[i] = pthread_create(&thread[i], NULL, job, &parts[i]) == 0;
-    job(&parts[0]);
-    for (size_t i = 1; i < count; i++)
-        if (is_running[i])
-            pthread_join(thread[i], NULL);
-        else
-            job(&parts[i]);
+    size_t running = 0;
+    team->run = run;
+    atomic_store(&team->next, 0);
+    while (running + 1 < threads && pthread_create(&thread[running], NULL, run_parts, team) == 0)
+        running++;
+    run_parts(team);
+    for (size_t i = 0; i < running; i++)
+        pthread_join(thread[i], NULL);
 }
 
 /* Cuts the lines into parts and reads them. Returns how many rows were read up to the first of another form. */
 static int64_t read_parts(cgt_trajectory *t, row_plan *plan, text_span lines, uint32_t done, uint32_t count,
                           size_t threads)
 {
-    fast_part part[MOST_THREADS] = {{0}};
-    size_t parts = 0;
+    row_team team = {.parts = 0};
+    fast_part *const part = team.part;
     const char *begin = lines.begin;
-    for (size_t i = 0; i < threads && begin < lines.end; i++) {
-        const size_t left = (size_t)(lines.end - begin), share = left / (threads - i);
-        const char *end = i + 1 < threads ? memchr(begin + share, '\n', left - share) : NULL;
+    const size_t most = threads * THREAD_PARTS;
+    for (size_t i = 0; i < most && begin < lines.end; i++) {
+        const size_t left = (size_t)(lines.end - begin), share = left / (most - i);
+        const char *end = i + 1 < most ? memchr(begin + share, '\n', left - share) : NULL;
         end = end != NULL ? end + 1 : lines.end;
-        part[parts++] = (fast_part){.t = t, .plan = plan, .store = &t->store, .begin = begin, .end = end};
+        part[team.parts++] = (fast_part){.t = t, .plan = plan, .store = &t->store, .begin = begin, .end = end};
         begin = end;
     }
-    run_parts(count_job, part, parts);
+    run_team(&team, count_part, threads);
     size_t at = done;
-    for (size_t i = 0; i < parts; i++) {
+    for (size_t i = 0; i < team.parts; i++) {
         part[i].at = at;
         part[i].rows = part[i].rows < count - at ? part[i].rows : count - at;
         at += part[i].rows;
     }
     if (trajectory_reserve(t, at, count) < 0)
         return -1;
-    run_parts(read_job, part, parts);
+    run_team(&team, read_part, threads);
     int64_t rows = 0;
-    for (size_t i = 0; i < parts && part[i].rows > 0; i++) { /* without rows: beyond the frame */
+    for (size_t i = 0; i < team.parts && part[i].rows > 0; i++) { /* without rows: beyond the frame */
         rows += (int64_t)part[i].done;
         plan->has_element |= part[i].has_element;
         t->text.begin += (size_t)(part[i].begin - (t->text.data + t->text.begin));

@@ -26,21 +26,48 @@ static inline uint64_t scan_load(const char *p)
            (uint64_t)b[5] << 40 | (uint64_t)b[6] << 48 | (uint64_t)b[7] << 56;
 }
 
-/* Reads the digits at p, at most eight. Returns how many there are.
- * Digits become bytes of 0 to 9. Adding 0x76 sets a byte's top bit from 10 on; a carry, from bytes of 0x8a on, goes to
- * bytes behind one that is marked already, and only the first mark counts. Then the digits are moved to the last bytes,
- * with zeros before them, and neighbours are joined: to two digits, four, eight. */
-static inline unsigned scan_eight(const char *p, uint64_t *value)
+/* Digits become bytes of 0 to 9. Returns the marks of the others, the top bit of each byte: adding 0x76 sets it from 10
+ * on. A carry, from bytes of 0x8a on, goes to bytes behind one that is marked for certain. */
+static inline uint64_t scan_marks(uint64_t x)
 {
-    const uint64_t x = scan_load(p) ^ UINT64_C(0x3030303030303030);
-    const uint64_t other = ((x + UINT64_C(0x7676767676767676)) | x) & UINT64_C(0x8080808080808080);
-    const unsigned count = other != 0 ? (unsigned)__builtin_ctzll(other) >> 3 : 8;
-    uint64_t y = count > 0 ? x << (64 - 8 * count) : 0;
-    y = 10 * y + (y >> 8);
+    return ((x + UINT64_C(0x7676767676767676)) | x) & UINT64_C(0x8080808080808080);
+}
+
+/* The number of eight digits, the first one lowest. Neighbours are joined: to two digits, four, eight. */
+static inline uint32_t scan_join(uint64_t digits)
+{
+    const uint64_t y = 10 * digits + (digits >> 8);
     const uint64_t mask = UINT64_C(0x000000ff000000ff);
     const uint64_t by_1000000_and_100 = UINT64_C(0x000f424000000064), by_10000_and_1 = UINT64_C(0x0000271000000001);
-    *value = ((y & mask) * by_1000000_and_100 + ((y >> 16) & mask) * by_10000_and_1) >> 32;
+    return (uint32_t)(((y & mask) * by_1000000_and_100 + ((y >> 16) & mask) * by_10000_and_1) >> 32);
+}
+
+#define SCAN_ZEROS UINT64_C(0x3030303030303030)
+
+/* Reads the digits at p, at most eight. Returns how many there are: they are moved to the last bytes, with zeros before
+ * them. */
+static inline unsigned scan_eight(const char *p, uint64_t *value)
+{
+    const uint64_t x = scan_load(p) ^ SCAN_ZEROS, other = scan_marks(x);
+    const unsigned count = other != 0 ? (unsigned)__builtin_ctzll(other) >> 3 : 8;
+    *value = scan_join(count > 0 ? x << (64 - 8 * count) : 0);
     return count;
+}
+
+/* Reads a number of at most eight characters, a point among them, and a blank after it: most numbers of most files.
+ * Returns what follows it, or NULL where it is of another form. Digits before the point move to its place; at most
+ * seven digits are an exact float. */
+static inline const char *scan_short(const char *p, uint32_t *mantissa, unsigned *fraction)
+{
+    const uint64_t x = scan_load(p) ^ SCAN_ZEROS, other = scan_marks(x);
+    const uint64_t first = other & (0 - other), rest = other ^ first, through = 2 * first - 1;
+    const unsigned point = first != 0 ? (unsigned)__builtin_ctzll(first) >> 3 : 0;
+    const unsigned end = rest != 0 ? (unsigned)__builtin_ctzll(rest) >> 3 : 8;
+    if (p[point] != '.' || end < 2 || (unsigned char)p[end] > ' ')
+        return NULL;
+    *mantissa = scan_join(((x & ~through) | (x << 8 & through)) << (64 - 8 * end));
+    *fraction = end - point - 1;
+    return p + end;
 }
 
 /* Reads an exponent after its e: one to three digits. Returns what follows, or NULL. */
@@ -56,9 +83,10 @@ static inline const char *scan_exponent(const char *p, int *exponent)
     return p + count;
 }
 
-/* Reads a number. Returns what follows it, or NULL where it is left to text_double: unusual, or with so many digits or
- * so large an exponent that one multiplication or division of exact doubles (Clinger 1990) does not do. */
-static inline __attribute__((always_inline)) const char *scan_double(const char *p, double *value)
+/* Reads a number that may be longer. Returns what follows it, or NULL where it is left to text_double: unusual, or with
+ * so many digits or so large an exponent that one multiplication or division of exact doubles (Clinger 1990) does not
+ * do. */
+static inline const char *scan_long(const char *p, double *value)
 {
     const int is_negative = *p == '-';
     uint64_t mantissa, part;
@@ -91,13 +119,34 @@ static inline __attribute__((always_inline)) const char *scan_double(const char 
     return p;
 }
 
+/* Reads a number. Returns as scan_long. */
+static inline const char *scan_double(const char *p, double *value)
+{
+    uint32_t mantissa;
+    unsigned fraction;
+    const char *const after = scan_short(p + (*p == '-'), &mantissa, &fraction);
+    if (FLT_EVAL_METHOD != 0 || after == NULL)
+        return scan_long(p, value);
+    const double magnitude = (double)mantissa / scan_power[fraction];
+    *value = *p == '-' ? -magnitude : magnitude;
+    return after;
+}
+
 /* The same for a float. Rounding to double first changes it only where the double lies half-way between two floats; all
- * numbers that come here, 0 or from 1e-22 to 2^53 * 1e22, are normal floats. */
+ * long numbers, 0 or from 1e-22 to 2^53 * 1e22, are normal floats. Short ones are quotients of exact floats. */
 static inline const char *scan_float(const char *p, float *value)
 {
     double number;
     uint64_t bits;
-    const char *const after = scan_double(p, &number);
+    uint32_t mantissa;
+    unsigned fraction;
+    const char *after = scan_short(p + (*p == '-'), &mantissa, &fraction);
+    if (FLT_EVAL_METHOD == 0 && after != NULL) {
+        const float magnitude = (float)mantissa / (float)scan_ten[fraction];
+        *value = *p == '-' ? -magnitude : magnitude;
+        return after;
+    }
+    after = scan_long(p, &number);
     if (after == NULL)
         return NULL;
     memcpy(&bits, &number, sizeof bits);

@@ -343,6 +343,7 @@ static int xyz_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
 const trajectory_format trajectory_format_xyz = {
     .is_series = 1,
     .is_followed = 1,
+    .gives_arrays = 1,
     .state_size = sizeof(xyz_state),
     .begin = xyz_begin,
     .read = xyz_read, /* no skip: names are numbered in order of appearance, so that a skipped frame must be read */

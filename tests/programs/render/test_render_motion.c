@@ -108,6 +108,12 @@ TEST(speeds_go_the_short_way_round_the_box)
     assert_near(s.speeds[0], sqrt(0.5), 1e-6);
     take(&s, 2, 1, first, id, 0.0f); /* no box: the unwrapped distance */
     assert_near(s.speeds[0], sqrt(2.0 * 9.5 * 9.5), 1e-5);
+    for (int k = 0; k < 2; k++) { /* about half of an edge */
+        const float half[] = {9.75f - (k ? 5.25f : 4.75f), 5, 0.25f, 1};
+        take(&s, 3 + 2 * k, 1, half, id, 10.0f);
+        assert_near(s.speeds[0], 4.75, 1e-6);
+        take(&s, 4 + 2 * k, 1, first, id, 10.0f);
+    }
     cgt_speed_release(s.tracker);
 }
 
@@ -322,6 +328,7 @@ TEST(ranges_of_values_are_quantiles)
     }
     cgt_bulk_values_sort(&many);
     cgt_bulk_values_merge(&parts[0], &parts[1]);
+    cgt_bulk_values_sort(&parts[0]);
     assert_memory_equal(&many, &parts[0], sizeof many);
     assert_int_equal(cgt_bulk_values_range(&many, -INFINITY, &low, &high), 1);
     assert_true(low > 500.0 && low < 1500.0 && high > 98500.0 && high < 99500.0);
@@ -576,7 +583,7 @@ TEST(the_bulk_leaves_strays_out)
             }
             if (stray && i == 500)
                 p[1] = 1e6f;
-            cgt_bulk_add(&b, i / 70, i, i, p, 0.5f);
+            bulk_add(&b, i / 70, i, i, p, 0.5f);
         }
         float min[3] = {-0.5f, -0.5f, -0.5f}, max[3] = {10.5f, stray ? 1e6f : 10.5f, 10.5f};
         const uint64_t outside = cgt_bulk_narrow(&b, min, max, &narrowed);
@@ -611,7 +618,7 @@ TEST(the_bulk_of_one_place_is_all)
         }
         memset(&b, 0, sizeof b);
         for (uint32_t i = 0; i < count; i++)
-            cgt_bulk_add(&b, 0, i, i, p, 0.1f);
+            bulk_add(&b, 0, i, i, p, 0.1f);
         assert_int_equal(cgt_bulk_narrow(&b, min, max, &narrowed), 0);
         assert_int_equal(narrowed, 0);
         assert_true(min[0] == p[0] - 0.1f && max[2] == p[2] + 0.1f);
@@ -628,7 +635,7 @@ static void add_falls(bulk *b, uint64_t first, uint64_t frames, float height, fl
             float p[3] = {0.5f * (float)(i % 20), 0.5f * (float)(i / 20), falls ? height : 0.0025f * (float)i};
             if (frame == 199 && i == 17 && stray > 0.0f)
                 p[2] = stray;
-            cgt_bulk_add(b, frame, i, 1000 + i, p, 0.5f);
+            bulk_add(b, frame, i, 1000 + i, p, 0.5f);
         }
 }
 
@@ -662,10 +669,10 @@ TEST(the_bulk_has_what_falls_in)
     memset(&backwards, 0, sizeof backwards);
     for (uint32_t k = 0; k < 60000; k++) {
         const uint32_t i = k % 30000;
-        cgt_bulk_add(&b, k / 30000, i, i, (const float[]){(float)i, (float)(k / 30000), 0.0f}, 0.5f);
+        bulk_add(&b, k / 30000, i, i, (const float[]){(float)i, (float)(k / 30000), 0.0f}, 0.5f);
         const uint32_t back = 59999 - k;
-        cgt_bulk_add(&backwards, back / 30000, back % 30000, back % 30000,
-                     (const float[]){(float)(back % 30000), (float)(back / 30000), 0.0f}, 0.5f);
+        bulk_add(&backwards, back / 30000, back % 30000, back % 30000,
+                 (const float[]){(float)(back % 30000), (float)(back / 30000), 0.0f}, 0.5f);
     }
     cgt_bulk_sort(&b);
     cgt_bulk_sort(&backwards);

@@ -55,18 +55,20 @@ static void expect_moved(const char *path, const cgt_trajectory_frame *plain, co
     if (plain->velocity != NULL)
         assert_memory_equal(moved->velocity, plain->velocity, 3 * sizeof(float) * plain->count);
     const cgt_trajectory_column *const x = cgt_trajectory_find_column(moved, "x");
-    for (uint32_t i = 0; x != NULL && i < plain->count; i++) /* columns are the file's own numbers */
-        assert_near(x->value[i], (double)place_of(plain, i)[0], 1e-5);
+    const float *const value = x != NULL ? x->value : NULL; /* columns are the file's own numbers */
+    for (uint32_t i = 0; value != NULL && i < plain->count; i++)
+        assert_near(value[i], (double)place_of(plain, i)[0], 1e-5);
 }
 
-/* All frames, twice: what a reader keeps of a frame for the next ones is moved once. */
-static void compare_files(const char *path)
+/* All frames, twice: what a reader keeps of a frame for the next ones is moved once. wants: columns of numbers that are
+ * wanted under their names are read in another way. */
+static void compare_files(const char *path, size_t wants)
 {
     static const double origin[3] = {1.25, -2.5, 1000.125};
     static const char *const wanted[] = {"x"};
     char error[1024];
     cgt_trajectory *const a = open_at(path, NULL), *const b = open_at(path, origin);
-    assert_int_equal(told_want_columns(b, wanted, 1, error, sizeof error), 0);
+    assert_int_equal(told_want_columns(b, wanted, wants, error, sizeof error), 0);
     for (int round = 0; round < 2; round++) {
         cgt_trajectory_frame plain, moved;
         int status;
@@ -88,10 +90,10 @@ TEST(all_formats_subtract_it)
 {
     static const char *const files[] = {"formats.bin", "formats.data", "formats.lammpstrj", "water.gro", "water.pdb",
                                         "water.dcd",   "water.xtc",    "water.trr",         "water.nc"};
-    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++)
-        compare_files(data_path(files[i]));
+    for (size_t i = 0; i < 2 * sizeof files / sizeof files[0]; i++)
+        compare_files(data_path(files[i / 2]), i % 2);
 #ifdef CGT_HAVE_MESHES
-    compare_files(scratch_text(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    compare_files(scratch_text(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), 1);
 #endif
 }
 

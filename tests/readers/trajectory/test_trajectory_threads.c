@@ -156,6 +156,28 @@ TEST(test_numbers)
     assert_true(taken > 200000);
 }
 
+/* What is nearly a short number is none: a row ends only where text_float takes the word, too. */
+TEST(test_short_numbers)
+{
+    static const char *const words[] = {
+        ".",        "-.",   ".5",    "-.5",  "5.",   "-0.0", "1.2.3",  "0.123456", "-0.123456", "12345.67", "1234567.",
+        "12345678", "1..2", "1.5e3", "1.5e", "1.-5", "1.5x", "1.\x8b", "1.5\xff",  "1.5\x0b",   "--1.5"};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        char text[64] = {0};
+        const size_t length = (size_t)snprintf(text, 40, "%s\n", words[i]) - 1;
+        float value = -1.0f, expected = -1.0f;
+        double number = -1.0, exact = -1.0;
+        const int is_float = scan_float(text, &value) == text + length;
+        const int is_double = scan_double(text, &number) == text + length;
+        text[length] = '\0';
+        const text_span word = {text, text + length};
+        if (is_float && (!text_float(word, &expected) || memcmp(&value, &expected, sizeof value) != 0))
+            fail_msg("%s: %.9g", words[i], (double)value);
+        if (is_double && (!text_double(word, &exact) || memcmp(&number, &exact, sizeof number) != 0))
+            fail_msg("%s: %.17g", words[i], number);
+    }
+}
+
 int main(void)
 {
     const char *seed = getenv("CGT_TEST_SEED");
