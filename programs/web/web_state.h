@@ -34,7 +34,7 @@ typedef struct web_state {
     char message[1024];
     char doubt[1100]; /* why the file's frames end too early, or options are left out, until it is told; "": nothing */
     char *options, *columns, *values, *told, *lines; /* of the last calls that tell them */
-    web_files files, given; /* as they are here, and as their user names them */
+    web_files files, given;                          /* as they are here, and as their user names them */
 } web_state;
 
 /* The one that the page has. */
