@@ -123,7 +123,7 @@ static void check_rays(test_random *r, tally *sum)
 TEST(planes_are_never_missed)
 {
     static tally tallies[STEPS];
-    for (size_t step = 0; step < STEPS; step++) {
+    for (int step = 0; step < bound_steps(); step++) {
         test_random r = random_make(4321);
         for (uint32_t round = 0; round < ROUNDS; round++)
             check_rays(&r, &tallies[step]);

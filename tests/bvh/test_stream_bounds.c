@@ -338,7 +338,7 @@ TEST(bounds_of_slabs_break_where_they_are_tightened)
         for (uint32_t i = 0; i < RAYS; i++)
             aim_at_speck(&r, &s, i);
         hits += find_truth(&s, RAYS);
-        for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
+        for (int step = 0; step < bound_steps(); step++, scale *= 0.70710678f) {
             error_scale = scale;
             set_interleaved((int)turn % 2);
             trace(&s, 0, RAYS, NULL);
@@ -388,7 +388,7 @@ TEST(bounds_of_leaves_break_where_they_are_tightened)
             given[i] = q;
         }
         find_truth(&s, RAYS);
-        for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
+        for (int step = 0; step < bound_steps(); step++, scale *= 0.70710678f) {
             filter_u = scale;
             set_interleaved((int)turn / 2 % 2);
             trace(&s, 0, RAYS, NULL);

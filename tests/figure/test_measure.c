@@ -11,7 +11,7 @@
 #include "data/measure.h"
 #include "support/test.h"
 
-static const periodic_box open = {.is_open = 1};
+static const periodic_box open = {.near = INFINITY};
 
 /* A box by its edges, periodic along those whose bit is set. */
 static periodic_box make_box(const double edge[3][3], int bits)

@@ -341,7 +341,7 @@ TEST(bounds_break_where_they_are_tightened)
     float scale = 1;
     bool cells = true;
     t.v.committed_scene = &scene;
-    for (size_t step = 0; step < STEPS; step++, scale *= 0.70710678f) {
+    for (int step = 0; step < bound_steps(); step++, scale *= 0.70710678f) {
         judge(test_between(2500, 4000), scale, cells, &at[step]);
         cells = cells && !at[step].cells; /* they take longest, and break first */
         if (!cells && at[step].culled && at[step].cones && at[step].ts)

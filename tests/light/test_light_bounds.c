@@ -342,7 +342,7 @@ static void break_bounds(bool wide)
         test_random r = random_make(850 + (uint64_t)what);
         tally sum[2][SHRUNK + 2] = {{{0}}};
         uint64_t hidden = 0;
-        for (uint32_t turn = 2 + test_scaled(4); turn; turn--)
+        for (uint32_t turn = 1 + test_scaled(5); turn; turn--)
             tighten(&r, (content)what, wide, true, sum, &hidden);
         const uint32_t lost = first_wrong(sum[0], false), invented = first_wrong(sum[0], true);
         const uint32_t missed = first_wrong(sum[1], false);
@@ -416,7 +416,7 @@ static void place_motes(test_random *r, subject *s)
 /* Blades or motes: what is wrong at the shipped bounds, and with neither margin nor underflow. */
 static void judge_extremes(test_random *r, bool blades, tally sum[2])
 {
-    for (uint32_t turn = 10 + test_scaled(40); turn; turn--) {
+    for (uint32_t turn = 3 + test_scaled(47); turn; turn--) {
         static subject s;
         subject_begin(r, TRIANGLES, false, &s);
         if (blades)
@@ -508,11 +508,11 @@ TEST(cells_break_where_they_are_tightened)
     uint64_t lost[STEPS] = {0};
     for (uint32_t i = 0; i < LIGHT_PARTS * LIGHT_PARTS; i++)
         t.table.far[i] = INFINITY;
-    for (uint32_t k = 1000 + test_scaled(20000); k; k--) {
+    for (uint32_t k = 300 + test_scaled(20700); k; k--) {
         tile_march m = {0};
         tile_slice s;
         make_cell(&r, &grid, &m, &s, &t);
-        for (int step = 0; step < STEPS; step++) {
+        for (int step = 0; step < bound_steps(); step++) {
             light_slice l;
             light_cells cells;
             filter_u = 0x1p-24f * exp2f(-0.5f * (float)step);

@@ -171,10 +171,8 @@ TEST(triangles_are_lit_on_the_side_that_is_seen)
     set_up(&s, 1, NULL);
     draw(&s);
     memcpy(before, s.rgb, sizeof before);
-    const cgt_triangles triangles = {.count = 2,
-                                     .indices = cgt_uint32s(turned, 0),
-                                     .vertex_count = 4,
-                                     .vertices = cgt_floats(floor_corner, 0)};
+    const cgt_triangles triangles = {
+        .count = 2, .indices = cgt_uint32s(turned, 0), .vertex_count = 4, .vertices = cgt_floats(floor_corner, 0)};
     assert_int_equal(cgt_scene_set_triangles(s.scene, &(uint32_t){FLOOR}, &triangles), CGT_OK);
     draw(&s);
     assert_true(s.rgb[3 * at(6.1f, 6.1f)] > 0);

@@ -31,7 +31,7 @@ static uint64_t beyond[BOUNDS][STEPS];
 static void count_beyond(int which, double error, double bound)
 {
     double scale = 1;
-    for (int step = 0; step < STEPS; step++, scale *= 0.70710678)
+    for (int step = 0; step < bound_steps(); step++, scale *= 0.70710678)
         beyond[which][step] += !(error <= bound * scale);
 }
 

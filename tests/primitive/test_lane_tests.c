@@ -249,7 +249,7 @@ static void bounds_hold(void **state)
         tally sum[2] = {{0}};
         if (f == CASE_FLAT && kind != ORACLE_TRIANGLE)
             continue;
-        for (uint32_t k = 100 + test_scaled(f == CASE_ANY ? 500 : 100); k; k--) {
+        for (uint32_t k = 50 + test_scaled(f == CASE_ANY ? 550 : 150); k; k--) {
             lane_case c;
             case_truth truth;
             case_make(&r, kind, (case_family)f, &c);
@@ -318,14 +318,14 @@ static void bounds_break_where_they_are_tightened(void **state)
     tally sum[STEPS] = {{0}};
     for (size_t f = 0; f < TEST_COUNT(hard); f++) {
         test_random r = random_make(50 + 100 * (uint64_t)kind + f);
-        for (uint32_t k = 100 + test_scaled(100); k; k--) {
+        for (uint32_t k = 30 + test_scaled(170); k; k--) {
             lane_case c;
             case_truth truth;
             float scale = SPUX_ROUNDOFF;
             case_make(&r, kind, hard[f], &c);
             case_judge(&c, &truth);
             subject_make(&c, &s);
-            for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
+            for (int step = 0; step < bound_steps(); step++, scale *= 0.70710678f) {
                 tally both[2] = {{0}};
                 filter_u = scale;
                 judge(&s, &truth, both);

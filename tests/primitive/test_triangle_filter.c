@@ -329,7 +329,7 @@ TEST(bounds_break_where_they_are_tightened)
             float scale = SPUX_ROUNDOFF;
             make_packet(&r, hard[f], &p, &s);
             const truth_of_packet truth = truth_of(&p, &s);
-            for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
+            for (int step = 0; step < bound_steps(); step++, scale *= 0.70710678f) {
                 filter_u = scale;
                 judge_packet(&r, &p, &s, &truth, &sum[step]);
             }

@@ -81,7 +81,7 @@ TEST(moved_rays_stay_on_their_lines)
             off += x > m.start[a] ? x - m.start[a] : m.start[a] - x;
         }
         double scale = 1;
-        for (int step = 0; step < STEPS; step++, scale *= 0.70710678)
+        for (int step = 0; step < bound_steps(); step++, scale *= 0.70710678)
             of[step].off += off > (truth_real)(m.start_error * scale);
     }
     print_message("%u of %u rays pass the scene\n", ready, rays);

@@ -190,7 +190,7 @@ TEST(frames_of_every_kind)
     for (uint32_t kind = 0; kind < TEST_COUNT(kinds); kind++) {
         test_random r = random_make(900 + kind);
         frames_tally tally = {0};
-        for (uint32_t round = 0; round < 3 + test_scaled(21); round++) {
+        for (uint32_t round = 0; round < 2 + test_scaled(22); round++) {
             fill_scene(&s, &r, kinds[kind].place, round % 4, scale[random_below(&r, TEST_COUNT(scale))]);
             dual_scene b = commit_scene(&s, round % 3 ? 0 : random_float(&r, 0.5f, 16));
             for (uint32_t i = 0; i < 3; i++) {

@@ -388,7 +388,7 @@ static void tighten(uint64_t stream, const struct bound *b, bool parallel)
         if (!b->make(&r, parallel))
             continue;
         cases++;
-        for (int step = 0; step < STEPS; step++) {
+        for (int step = 0; step < bound_steps(); step++) {
             const float scale = exp2f(-0.5f * (float)step);
             filter_u = 0x1p-24f * scale;
             double_scale = given_scale * (double)scale;

@@ -246,7 +246,7 @@ TEST(triangles_next_to_a_tile)
             continue;
         tile_of(&t, &at, farthest(), true);
         find_truth(&t, &q, &truth);
-        for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
+        for (int step = 0; step < bound_steps(); step++, scale *= 0.70710678f) {
             filter_u = scale;
             judge_side_culling(&t, &truth, &sum[step]);
         }

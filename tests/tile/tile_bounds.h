@@ -45,7 +45,7 @@ static inline tally check_bounds(uint64_t stream, bool parallel, uint32_t forms,
 {
     test_random r = random_make(stream);
     tally sum = {0};
-    for (uint32_t k = 100 + test_scaled(cases); k; k--)
+    for (uint32_t k = 20 + test_scaled(cases + 80); k; k--)
         if (make_case(&r, parallel))
             for (uint32_t form = 0; form < forms; form++)
                 judge_case(form, form == 0, &sum);
@@ -64,11 +64,11 @@ static inline void check_tightened_bounds(uint64_t stream, bool parallel, uint32
 {
     test_random r = random_make(stream);
     tally sum[STEPS] = {{0}};
-    for (uint32_t k = 400 + test_scaled(2000); k; k--) {
+    for (uint32_t k = 100 + test_scaled(2300); k; k--) {
         float scale = 0x1p-24f;
         if (!make_case(&r, parallel))
             continue;
-        for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
+        for (int step = 0; step < bound_steps(); step++, scale *= 0.70710678f) {
             filter_u = scale;
             judge_case(k % forms, step == 0, &sum[step]);
         }
