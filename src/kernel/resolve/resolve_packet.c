@@ -12,29 +12,60 @@
 
 /* ---- the primitives ---- */
 
-/* Spheres of several arrays. Neighbours mostly hit the same one: each distinct sphere of a vector is looked up once. */
-CGT_SPU_INLINE void resolve_lookup_spheres(const cgt_primitives *prims, const packet *p, uint32_t i, hit_primitives *w,
-                                           packet_hits *hits)
+/* A sphere or a capsule: centre or p, q, radius. */
+CGT_SPU_INLINE void round_numbers(const cgt_primitive_array *a, uint32_t i, float number[7])
+{
+    if (a->kind == CGT_KIND_SPHERES) {
+        const cgt_sphere q = cgt_array_sphere(a, i);
+        number[0] = q.x;
+        number[1] = q.y;
+        number[2] = q.z;
+        number[6] = q.r;
+        return;
+    }
+    const cgt_capsule q = cgt_array_capsule(a, i);
+    for (int k = 0; k < 3; k++) {
+        number[k] = q.p[k];
+        number[3 + k] = q.q[k];
+    }
+    number[6] = q.r;
+}
+
+/* Spheres and capsules of any arrays, for a vector of rays from i on. Neighbours mostly hit the same one: each distinct
+ * one is looked up once. What one kind does not have are numbers of others, which its loop does not use. *a: the array
+ * of the last one, which neighbours mostly have in common. capsules: a constant; there are some. */
+CGT_SPU_INLINE void resolve_lookup_round(const cgt_primitives *prims, const packet *p, uint32_t i, bool capsules,
+                                         const cgt_primitive_array **a, hit_primitives *w, packet_hits *hits)
 {
     const vuint prim = spux_load_uint(p->prim + i), none = spux_vuint(CGT_INVALID_ID);
-    vfloat d[4] = {spux_vfloat(0), spux_vfloat(0), spux_vfloat(0), spux_vfloat(0)};
-    vuint primitive = none, geometry = none;
+    vuint primitive = none, geometry = none, kind = spux_vuint(CGT_KIND_TRIANGLES);
     unsigned remaining = ~spux_mask_bits(spu_cmpeq(prim, none)) & CGT_ALL_LANES;
+    vfloat d[7];
+    for (int k = 0; k < 7; k++)
+        d[k] = spux_vfloat(0);
     while (remaining) {
         const uint32_t hit_prim = p->prim[i + (uint32_t)__builtin_ctz(remaining)];
-        const cgt_primitive_array *a = cgt_primitives_array(prims, hit_prim);
-        const cgt_sphere q = cgt_array_sphere(a, hit_prim - a->first);
         const vmask same = spu_cmpeq(prim, spux_vuint(hit_prim));
-        d[0] = spux_select(d[0], spux_vfloat(q.x), same);
-        d[1] = spux_select(d[1], spux_vfloat(q.y), same);
-        d[2] = spux_select(d[2], spux_vfloat(q.z), same);
-        d[3] = spux_select(d[3], spux_vfloat(q.r), same);
-        primitive = spux_select(primitive, spux_vuint(hit_prim - a->first), same);
-        geometry = spux_select(geometry, spux_vuint(a->geometry), same);
+        if (hit_prim - (*a)->first >= (*a)->count)
+            *a = cgt_primitives_array(prims, hit_prim);
+        float number[7] = {0};
+        round_numbers(*a, hit_prim - (*a)->first, number);
+        for (int k = 0; k < 7; k++)
+            d[k] = spux_select(d[k], spux_vfloat(number[k]), same);
+        primitive = spux_select(primitive, spux_vuint(hit_prim - (*a)->first), same);
+        geometry = spux_select(geometry, spux_vuint((*a)->geometry), same);
+        kind = spux_select(kind, spux_vuint((*a)->kind), same);
         remaining &= ~spux_mask_bits(same);
     }
-    for (int a = 0; a < 4; a++)
-        spux_store(w->sphere[a] + i, d[a]);
+    for (int k = 0; k < 3; k++)
+        spux_store(w->sphere[k] + i, d[k]);
+    spux_store(w->sphere[3] + i, d[6]);
+    for (int k = 0; k < 3 && capsules; k++) {
+        spux_store(w->vertex[0][k] + i, d[k]);
+        spux_store(w->vertex[1][k] + i, d[3 + k]);
+    }
+    if (capsules)
+        spux_store_uint(w->kind + i, kind);
     spux_store_uint(hits->primitive + i, primitive);
     spux_store_uint(hits->geometry + i, geometry);
 }
@@ -54,16 +85,18 @@ CGT_SPU_INLINE void resolve_load_spheres(const cgt_primitive_array *array, const
     spux_store_uint(hits->geometry + i, spux_select(spux_vuint(array->geometry), none, missed));
 }
 
-CGT_SPU_INLINE void resolve_find_spheres(const cgt_primitives *prims, const packet *p, uint32_t first, uint32_t count,
-                                         hit_primitives *w, packet_hits *hits)
+/* Spheres, and capsules where there are any. */
+CGT_SPU_INLINE void resolve_find_round(const cgt_primitives *prims, const packet *p, uint32_t first, uint32_t count,
+                                       bool capsules, hit_primitives *w, packet_hits *hits)
 {
     const vuint none = spux_vuint(CGT_INVALID_ID);
+    const cgt_primitive_array *a = prims->array;
     for (uint32_t i = first; i < first + count; i += CGT_LANES) {
         const unsigned hit = ~spux_mask_bits(spu_cmpeq(spux_load_uint(p->prim + i), none)) & CGT_ALL_LANES;
-        if (prims->arrays == 1 && hit)
+        if (!capsules && prims->arrays == 1 && hit)
             resolve_load_spheres(prims->array, p, i, hit, w, hits);
         else
-            resolve_lookup_spheres(prims, p, i, w, hits);
+            resolve_lookup_round(prims, p, i, capsules, &a, w, hits);
         w->hits += spux_count_bits(hit);
     }
 }
@@ -163,66 +196,6 @@ CGT_SPU_INLINE void resolve_load_triangles(const cgt_primitive_array *array, vui
             spux_store(w->vertex[k][a] + i, vertex[k][a]);
 }
 
-/* A sphere or a capsule: centre or p, q, radius. */
-CGT_SPU_INLINE void round_numbers(const cgt_primitive_array *a, uint32_t i, float number[7])
-{
-    if (a->kind == CGT_KIND_SPHERES) {
-        const cgt_sphere q = cgt_array_sphere(a, i);
-        number[0] = q.x;
-        number[1] = q.y;
-        number[2] = q.z;
-        number[6] = q.r;
-        return;
-    }
-    const cgt_capsule q = cgt_array_capsule(a, i);
-    for (int k = 0; k < 3; k++) {
-        number[k] = q.p[k];
-        number[3 + k] = q.q[k];
-    }
-    number[6] = q.r;
-}
-
-/* Spheres and capsules of any arrays: as above, but the lanes of a vector stay in registers. What one kind does not
- * have are numbers of others, which its loop does not use. */
-CGT_SPU_INLINE void resolve_lookup_round(const cgt_primitives *prims, const packet *p, uint32_t first, uint32_t count,
-                                         hit_primitives *w, packet_hits *hits)
-{
-    const vuint none = spux_vuint(CGT_INVALID_ID);
-    const cgt_primitive_array *a = prims->array;
-    for (uint32_t i = first; i < first + count; i += CGT_LANES) {
-        const vuint prim = spux_load_uint(p->prim + i);
-        vuint primitive = none, geometry = none, kind = spux_vuint(CGT_KIND_TRIANGLES);
-        unsigned remaining = ~spux_mask_bits(spu_cmpeq(prim, none)) & CGT_ALL_LANES;
-        vfloat d[7];
-        for (int k = 0; k < 7; k++)
-            d[k] = spux_vfloat(0);
-        w->hits += spux_count_bits(remaining);
-        while (remaining) {
-            const uint32_t hit_prim = p->prim[i + (uint32_t)__builtin_ctz(remaining)];
-            const vmask same = spu_cmpeq(prim, spux_vuint(hit_prim));
-            if (hit_prim - a->first >= a->count)
-                a = cgt_primitives_array(prims, hit_prim);
-            float number[7] = {0};
-            round_numbers(a, hit_prim - a->first, number);
-            for (int k = 0; k < 7; k++)
-                d[k] = spux_select(d[k], spux_vfloat(number[k]), same);
-            primitive = spux_select(primitive, spux_vuint(hit_prim - a->first), same);
-            geometry = spux_select(geometry, spux_vuint(a->geometry), same);
-            kind = spux_select(kind, spux_vuint(a->kind), same);
-            remaining &= ~spux_mask_bits(same);
-        }
-        for (int k = 0; k < 3; k++) {
-            spux_store(w->sphere[k] + i, d[k]);
-            spux_store(w->vertex[0][k] + i, d[k]);
-            spux_store(w->vertex[1][k] + i, d[3 + k]);
-        }
-        spux_store(w->sphere[3] + i, d[6]);
-        spux_store_uint(w->kind + i, kind);
-        spux_store_uint(hits->primitive + i, primitive);
-        spux_store_uint(hits->geometry + i, geometry);
-    }
-}
-
 /* Triangles of one array. */
 CGT_SPU_INLINE void resolve_find_triangles(const cgt_primitive_array *array, const packet *p, uint32_t first,
                                            uint32_t count, hit_primitives *w, packet_hits *hits)
@@ -246,11 +219,11 @@ CGT_SPU_INLINE void resolve_load_hits(const cgt_primitives *prims, const packet 
                                       hit_primitives *w, packet_hits *hits)
 {
     if (has_spheres_alone(prims))
-        resolve_find_spheres(prims, p, first, count, w, hits);
+        resolve_find_round(prims, p, first, count, false, w, hits);
     else if (prims->arrays == 1 && prims->triangles)
         resolve_find_triangles(prims->array, p, first, count, w, hits);
     else if (!prims->triangles)
-        resolve_lookup_round(prims, p, first, count, w, hits);
+        resolve_find_round(prims, p, first, count, true, w, hits);
     else
         resolve_lookup_mixed(prims, p, first, count, w, hits);
 }
