@@ -604,6 +604,7 @@ TEST(bands_have_the_bytes_of_steps)
         s.settings.width = WIDTH;
         s.settings.height = HEIGHT;
         s.settings.antialias = 4; /* 130 MB of planes */
+        s.settings.lighting.ambient = s.settings.lighting.light_samples = 1;
         s.settings.style.outline = layers ? 3.0f : 0.0f;
         s.settings.style.layer_count = layers;
         s.settings.style.layers[0] = (cgt_picture_layer){2, 0.5f};
@@ -627,7 +628,6 @@ TEST(bands_have_the_bytes_of_steps)
     }
 }
 
-/* The error of a picture in the middle of its steps falls as samples grow: it is not worse than that of fewer. */
 /* Rows alone have the bytes of the whole: those of averages, outlines and soft lights, which look at rows around them,
  * too. Other pixels stay. */
 TEST(rows_have_the_bytes_of_the_whole)
@@ -676,6 +676,7 @@ TEST(rows_have_the_bytes_of_the_whole)
     }
 }
 
+/* The error of a picture in the middle of its steps falls as samples grow: it is not worse than that of fewer. */
 TEST(steps_come_nearer)
 {
     static stage s;
