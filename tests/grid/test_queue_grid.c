@@ -266,7 +266,7 @@ TEST(references_widen_beyond_65535)
             const uint32_t count = k == 2 ? most + 4000 : most + k;
             uint64_t near;
             cgt_scene *scene = scene_of_triangles(context, SCENE_OPTIONS(&grid), (const triangle *)t, count);
-            const cgt_research_scene_statistics s = queue_grid_check(scene, k ? 7 : 61, &near);
+            const cgt_research_scene_statistics s = queue_grid_check(scene, test_samples() ? 997 : k ? 7 : 61, &near);
             assert_int_equal(s.reference_bits, k ? 32 : 16);
             assert_true(s.overflow_references > 0);
             cgt_scene *other = scene_of_triangles(context, NULL, (const triangle *)t, count);
