@@ -17,8 +17,11 @@
 #define DRIVER_RAYS 1024u
 #define DRIVER_LISTED 40u /* rays whose hits are all asked for */
 #define DRIVER_POINTS 48u
-#define DRIVER_LIT 640u /* points against a light */
-#define DRIVER_PIXELS 512u
+#define DRIVER_LIT 4097u     /* points against a light */
+#define DRIVER_PIXELS 16640u /* of a frame: more than two tiles by two */
+#define DRIVER_SMALL 512u    /* of the frames of most profiles */
+#define DRIVER_JUDGED 640u   /* of the points, or of the pixels: all of small frames; */
+#define DRIVER_SAMPLE 40u    /* about as many in profiles with large ones */
 #define DRIVER_LIGHTS 2u
 #define DRIVER_SAMPLES 3u
 #define DRIVER_LIST 2048u /* hits of a ray, for calls that list them */
@@ -54,6 +57,7 @@
     X(INVALID, "invalid")                                                                                              \
     X(BVH, "through a BVH")                                                                                            \
     X(PACKETS, "packets")                                                                                              \
+    X(TILES, "tiles")                                                                                                  \
     X(SPLIT, "packets split")                                                                                          \
     X(TESTS, "tests")                                                                                                  \
     X(DOUBLE, "decided in double")                                                                                     \
@@ -97,6 +101,7 @@ typedef struct driver_profile {
     line_maker *lines[6];        /* those of a scene, one after another */
     uint32_t rays;               /* of a scene, at most */
     uint32_t lit;                /* points against a light, at most; 0: few */
+    uint32_t pixels;             /* of large frames, at most; 0: all frames are small */
     uint32_t masks, skips, cuts; /* one ray of so many has a mask, skips a primitive, ends or begins at a hit */
     const driver_call *calls[4];
     unsigned ways;  /* a set of support/ways.h, or any; 0: AUTO first, and half of the others */

@@ -183,19 +183,37 @@ static void check_alone(driver_run *run, const decision *d, const full_hit *hit)
     }
 }
 
-/* A call that wants ids alone finds the same ones. */
-static void check_ids(driver_run *run, const full_hit *hit)
+/* A call that wants any set of fields has their bits, and leaves the others. */
+static void check_fields(driver_run *run, const full_hit *hit)
 {
-    static uint32_t primitive[DRIVER_RAYS], geometry[DRIVER_RAYS];
+    static full_hit got[DRIVER_RAYS];
     const cgt_rays rays = make_arrays(run, 0, run->rays);
-    const cgt_hits ids = {.primitive = primitive, .geometry = random_below(&run->scene.random, 2) ? geometry : NULL};
     const test_trace_options o = driver_options(run, CGT_PRECISION_EXACT);
-    if (!driver_succeeds(run, cgt_trace_rays(run->setup.scene, &rays, &ids, TRACE_OPTIONS(&o)), "cgt_trace_rays"))
+    const uint32_t fields = random_below(&run->scene.random, 32);
+    cgt_hits hits = hit_array(got);
+    hits.t = fields & CGT_FIELD_T ? hits.t : NULL;
+    hits.primitive = fields & CGT_FIELD_PRIMITIVE ? hits.primitive : NULL;
+    hits.geometry = fields & CGT_FIELD_GEOMETRY ? hits.geometry : NULL;
+    for (int a = 0; a < 3; a++)
+        hits.normal[a] = fields & CGT_FIELD_NORMAL ? hits.normal[a] : NULL;
+    hits.u = fields & CGT_FIELD_UV ? hits.u : NULL;
+    hits.v = fields & CGT_FIELD_UV ? hits.v : NULL;
+    memset(got, 0x77, run->rays * sizeof *got);
+    if (!driver_succeeds(run, cgt_trace_rays(run->setup.scene, &rays, &hits, TRACE_OPTIONS(&o)), "cgt_trace_rays"))
         return;
-    for (uint32_t i = 0; i < run->rays; i++)
-        if (primitive[i] != hit[i].primitive || (ids.geometry && geometry[i] != hit[i].geometry))
-            driver_fail(run, &run->ray[i], "cgt_trace_rays, ids alone", "another hit, of primitive %d",
-                        (int)primitive[i]);
+    for (uint32_t i = 0; i < run->rays; i++) {
+        full_hit want;
+        memset(&want, 0x77, sizeof want);
+        want.t = hits.t ? hit[i].t : want.t;
+        want.primitive = hits.primitive ? hit[i].primitive : want.primitive;
+        want.geometry = hits.geometry ? hit[i].geometry : want.geometry;
+        if (hits.normal[0])
+            memcpy(want.normal, hit[i].normal, sizeof want.normal);
+        if (hits.u)
+            memcpy(want.uv, hit[i].uv, sizeof want.uv);
+        if (memcmp(&got[i], &want, sizeof want) != 0)
+            driver_fail(run, &run->ray[i], "cgt_trace_rays", "fields %u have other bits", (unsigned)fields);
+    }
     run->count[COUNT_ANSWERS] += run->rays;
 }
 
@@ -217,7 +235,7 @@ static void ask(driver_run *run)
             check_alone(run, d, hit);
     }
     if (random_below(r, 4) == 0)
-        check_ids(run, hit);
+        check_fields(run, hit);
 }
 
 const driver_call call_nearest = {NULL, ask};

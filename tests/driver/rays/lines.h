@@ -22,6 +22,7 @@ line_maker speck_lines;     /* exactly through centres, a few short steps away *
 line_maker long_lines;      /* along the axis of a scene in whole units, all of the line */
 line_maker edge_lines;      /* in bundles from inside and from outside through edges and vertices of triangles */
 line_maker capsule_lines;   /* through seams, tips and silhouettes of capsules, along their axes, from inside */
+line_maker crossing_lines;  /* those of a closed mesh on a lattice */
 line_maker case_lines;      /* those of a hard case */
 line_maker band_lines;      /* between primitives of any magnitudes */
 
