@@ -308,6 +308,7 @@ static void begin(driver_run *run)
         find_pixels(run, w);
     w->has_first = false;
     driver_shadows_begin(run, w);
+    driver_points_begin(run, w);
 }
 
 static void ask(driver_run *run)

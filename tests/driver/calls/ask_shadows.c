@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Shadows of a frame's pixels and of points, ambient occlusion of the pixels. Directions are those that the API
- * defines; what the rays hit is judged. */
+ * Shadows of a frame's pixels, and ambient occlusion of them. Directions are those that the API defines; what the rays
+ * hit is judged. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -11,6 +11,22 @@
 #include "query/ambient_directions.h"
 
 /* ---- lights ---- */
+
+/* Among the primitives, beside them, or farther than tiles take. */
+static void place_light(judge_scene *s, float p[3])
+{
+    const uint32_t how = random_below(&s->random, 4);
+    float at[3], out[3];
+    line_place(s, how == 2 ? at : p);
+    if (how == 2)
+        line_place_beside(s, at, p);
+    if (how < 3)
+        return;
+    const float far = s->scale * random_log(&s->random, 1, 1e7f);
+    random_direction(&s->random, out);
+    for (int a = 0; a < 3; a++)
+        p[a] = s->middle[a] + far * out[a];
+}
 
 static void make_lights(driver_run *run, driver_view *w)
 {
@@ -22,10 +38,12 @@ static void make_lights(driver_run *run, driver_view *w)
             if (l->kind == CGT_LIGHT_DIRECTIONAL)
                 random_direction(r, l->position);
             else
-                line_place(&run->scene, l->position);
+                place_light(&run->scene, l->position);
         while (!isfinite(l->position[0] + l->position[1] + l->position[2]));
         for (int a = 0; a < 3 && random_below(r, 3) == 0; a++)
             l->position[a] = (float)random_below(r, 5) - 2;
+        for (uint32_t a = 0, along = random_below(r, 18); a < 3 && along < 3; a++)
+            l->position[a] = a == along ? l->position[a] : 0;
         if (l->kind == CGT_LIGHT_DIRECTIONAL && l->position[0] == 0 && l->position[1] == 0 && l->position[2] == 0)
             l->position[2] = 1;
     }
@@ -33,7 +51,7 @@ static void make_lights(driver_run *run, driver_view *w)
     w->shadows.t_min = random_below(r, 3) ? 0 : random_float(r, 0, 0.1f);
 }
 
-static judge_ray ray_to(const cgt_light *light, const float from[3])
+judge_ray driver_ray_to(const cgt_light *light, const float from[3])
 {
     const bool is_point = light->kind == CGT_LIGHT_POINT;
     judge_ray ray = {
@@ -43,50 +61,6 @@ static judge_ray ray_to(const cgt_light *light, const float from[3])
         ray.line.dir[a] = is_point ? light->position[a] - from[a] : light->position[a];
     }
     return ray;
-}
-
-/* Beside the one before, at a surface, or anywhere; a few that are none, or have no range. */
-static void place_lit(driver_run *run, driver_view *w, uint32_t i)
-{
-    static const float odd[] = {NAN, INFINITY, -INFINITY, 0x1p60f, -0x1p100f, 0x1p-140f};
-    test_random *r = &run->scene.random;
-    float p[3];
-    if (i < DRIVER_POINTS)
-        memcpy(p, run->point[i], sizeof p);
-    else if (i % 64 && random_below(r, 2))
-        for (int a = 0; a < 3; a++)
-            p[a] = w->to_lit[i - 1].line.org[a] + 1e-3f * run->scene.scale * random_float(r, -1, 1);
-    else
-        line_place(&run->scene, p);
-    if (i % 90 == 89)
-        p[random_below(r, 3)] = odd[random_below(r, TEST_COUNT(odd))];
-    if (i % 200 == 60)
-        memcpy(p, w->light[0].position, sizeof p);
-    w->to_lit[i] = ray_to(&w->light[0], p);
-}
-
-static void find_lit(driver_run *run, driver_view *w)
-{
-    test_random *r = &run->scene.random;
-    w->lit = DRIVER_POINTS +
-             random_below(r, 1 + (run->profile->lit > DRIVER_POINTS ? run->profile->lit - DRIVER_POINTS : 0));
-    w->lit_ranges = random_below(r, 2);
-    w->lit_every = driver_every(run, w->lit);
-    w->lit_filters = run->profile->masks || run->profile->skips;
-    for (uint32_t i = 0; i < w->lit; i++) {
-        judge_ray *const ray = &w->to_lit[i];
-        place_lit(run, w, i);
-        if (w->lit_ranges && i % 3 == 0)
-            ray->line.t_min = random_float(r, -0.5f, 0.5f);
-        if (w->lit_ranges && i % 5 == 0)
-            ray->line.t_max = random_below(r, 4) ? random_float(r, 0, 2) : -1;
-        if (w->lit_filters) {
-            ray->mask = run->point_mask[i % DRIVER_POINTS];
-            driver_filter(run, ray, NULL);
-        }
-        if (driver_is_one_of(w->lit_every, i))
-            w->lit_shadow[i] = driver_trace(run, ray, JUDGE_SHADOW, false);
-    }
 }
 
 static void find_shadows(driver_run *run, driver_view *w)
@@ -100,7 +74,7 @@ static void find_shadows(driver_run *run, driver_view *w)
             if (!driver_is_hit(w, i))
                 continue;
             driver_position(w, i, p);
-            *ray = ray_to(&w->light[k], p);
+            *ray = driver_ray_to(&w->light[k], p);
             ray->mask = w->camera.mask;
             ray->line.t_min = w->shadows.t_min;
             ray->skip_primitive = w->got.primitive[i];
@@ -236,48 +210,6 @@ static void check_spoilt(driver_run *run, driver_view *w)
     run->count[COUNT_ANSWERS] += w->pixels;
 }
 
-/* ---- points ---- */
-
-/* As rays, too: a point that is its light's place has none. */
-void driver_points_ask(driver_run *run, driver_view *w)
-{
-    static uint8_t occluded[DRIVER_LIT + 1], by_rays[DRIVER_LIT];
-    const judge_ray *const r = w->to_lit;
-    const uint32_t count = random_below(&run->scene.random, 4) ? w->lit : 1 + random_below(&run->scene.random, w->lit);
-    const cgt_points points = {.count = count,
-                               .stride = sizeof *r,
-                               .position = {&r->line.org[0], &r->line.org[1], &r->line.org[2]},
-                               .t_min = w->lit_ranges ? &r->line.t_min : NULL,
-                               .t_max = w->lit_ranges ? &r->line.t_max : NULL,
-                               .mask = w->lit_filters ? &r->mask : NULL,
-                               .skip_primitive = w->lit_filters ? &r->skip_primitive : NULL,
-                               .skip_geometry = w->lit_filters ? &r->skip_geometry : NULL};
-    const cgt_rays rays = driver_ray_array(r, count);
-    cgt_trace_statistics statistics[2];
-    test_trace_options o = driver_options(run, (cgt_precision)random_below(&run->scene.random, 2));
-    uint64_t hits = 0;
-    memset(occluded, 9, sizeof occluded);
-    o.statistics = &statistics[0];
-    if (!driver_succeeds(run, cgt_occluded_points(run->setup.scene, &w->light[0], &points, occluded, TRACE_OPTIONS(&o)),
-                         "cgt_occluded_points"))
-        return;
-    o.statistics = &statistics[1];
-    if (!driver_succeeds(run, cgt_occluded_rays(run->setup.scene, &rays, by_rays, TRACE_OPTIONS(&o)),
-                         "cgt_occluded_rays"))
-        return;
-    run->count[COUNT_ANSWERS] += 2 * count;
-    for (uint32_t i = 0; i < count; i++) {
-        hits += occluded[i] == 1;
-        if ((driver_is_one_of(w->lit_every, i) && !driver_is_occluded(run, &w->lit_shadow[i], occluded[i])) ||
-            by_rays[i] != occluded[i])
-            driver_fail(run, &w->to_lit[i], "cgt_occluded_points", "%u, its ray %u", occluded[i], by_rays[i]);
-    }
-    if (occluded[count] != 9 || statistics[0].invalid_rays != statistics[1].invalid_rays)
-        driver_fail(run, NULL, "cgt_occluded_points", "one too many, or %llu invalid, of its rays %llu",
-                    (unsigned long long)statistics[0].invalid_rays, (unsigned long long)statistics[1].invalid_rays);
-    driver_check_statistics(run, &statistics[0], count, hits);
-}
-
 /* ---- ambient occlusion ---- */
 
 static void find_open(driver_run *run, driver_view *w, const cgt_ambient_points *points, uint32_t i)
@@ -354,7 +286,6 @@ static void check_ambient(driver_run *run, driver_view *w, const cgt_frame *fram
 void driver_shadows_begin(driver_run *run, driver_view *w)
 {
     make_lights(run, w);
-    find_lit(run, w);
     w->has_ambient = random_below(&run->scene.random, 3) == 0;
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A camera, its lights and what is right about them, between ask_frames.c, ask_shadows.c and view_cameras.c. */
+ * A camera, its lights and what is right about them, between the files of calls that need it. */
 #ifndef VIEW_H
 #define VIEW_H
 
@@ -25,8 +25,8 @@ typedef struct driver_view {
     cgt_shadow_options shadows;
     judge_ray to_light[DRIVER_LIGHTS][DRIVER_PIXELS];
     judge_truth shadow[DRIVER_LIGHTS][DRIVER_PIXELS];
-    uint32_t lit, lit_every;      /* points, against the first light; one of so many is judged */
-    bool lit_ranges, lit_filters; /* else all see everything as far as the light */
+    uint32_t lit, lit_every;               /* points, against the first light; one of so many is judged */
+    bool lit_ranges, lit_skips, lit_masks; /* else all see everything as far as the light */
     judge_ray to_lit[DRIVER_LIT];
     judge_truth lit_shadow[DRIVER_LIT];
     cgt_ambient_options ambient;
@@ -35,10 +35,16 @@ typedef struct driver_view {
     float first_visibility[DRIVER_PIXELS];
 } driver_view;
 
-/* So that about as many things are judged as the profile says. */
-static inline uint32_t driver_every(const driver_run *run, uint32_t of)
+/* Whether frames or points are so many that a part is judged, and the others are compared. */
+static inline bool driver_samples(const driver_run *run)
 {
-    return 1 + of / (run->profile->pixels ? DRIVER_SAMPLE : DRIVER_JUDGED);
+    return run->profile->pixels || run->profile->lit > DRIVER_JUDGED;
+}
+
+/* So that about as many are judged as then may be. */
+static inline uint32_t driver_every(const driver_run *run, uint32_t of, uint32_t sample)
+{
+    return 1 + of / (driver_samples(run) ? sample : DRIVER_JUDGED);
 }
 
 /* One of `every`, anywhere. */
@@ -63,12 +69,15 @@ static inline void driver_position(const driver_view *w, uint32_t i, float p[3])
     driver_place(&w->ray[i].line, w->got.t[i], p);
 }
 
-/* Before the first setup: lights, and points against the first one. */
+/* Before the first setup: lights. */
 void driver_shadows_begin(driver_run *run, driver_view *w);
+judge_ray driver_ray_to(const cgt_light *light, const float from[3]);
 
 /* The rays from the hits of the first setup, which the others must have. */
 void driver_shadows_find(driver_run *run, driver_view *w);
 
+/* The points against the first light. */
+void driver_points_begin(driver_run *run, driver_view *w);
 void driver_points_ask(driver_run *run, driver_view *w);
 void driver_shadows_ask(driver_run *run, driver_view *w, const cgt_frame *frame);
 

@@ -132,7 +132,7 @@ static void choose_size(driver_run *run, driver_view *w)
     w->pixels = w->width * w->rows;
     if (run->scene.aims && most && random_below(r, 4))
         look_as_aimed(run, w);
-    w->every = driver_every(run, w->pixels);
+    w->every = driver_every(run, w->pixels, DRIVER_SAMPLE);
 }
 
 void driver_camera_make(driver_run *run, driver_view *w)

@@ -107,6 +107,15 @@ static void walls(scene_heap *h)
     h->scene->aims = SCENE_AIMS_CONE;
 }
 
+/* Many pixels in a row hit the same one; nothing else is there. */
+static void large_balls(scene_heap *h)
+{
+    for (uint32_t i = 2 + below(h, 60); i > 0; i--) {
+        const float p[3] = {real(h, -1, 1), real(h, -1, 1), real(h, -1, 1)};
+        sphere(h, p, real(h, 0.2f, 0.7f));
+    }
+}
+
 /* ---- far floors, far things ---- */
 
 static void things(scene_heap *h, uint32_t count)
@@ -184,6 +193,7 @@ static const struct {
                 {"large layers", large_layers},
                 {"vertices on rays", vertices_on_rays},
                 {"walls", walls},
+                {"large balls", large_balls},
                 {"a far floor", far_floor},
                 {"far things", far_things}};
 
