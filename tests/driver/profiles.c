@@ -162,7 +162,7 @@ const driver_profile driver_profiles[] = {
      .calls = {&call_nearest},
      .ways = WAY_CHOSEN,
      .loads = 2,
-     .shows = {{COUNT_HITS, COUNT_SCENES, 50}, {COUNT_BVH, COUNT_TRACED, 0.2}, {COUNT_EXACT, COUNT_TRACED, 0.002}}},
+     .shows = {{COUNT_HITS, COUNT_SCENES, 50}, {COUNT_BVH, COUNT_TRACED, 0.2}, {COUNT_DOUBLE, COUNT_TRACED, 0.1}}},
     /* boxes smaller than what slabs lose by rounding */
     {.name = "specks",
      .scenes = 12,
@@ -203,7 +203,7 @@ const driver_profile driver_profiles[] = {
      .shows = {{COUNT_SEEN, COUNT_PIXELS, 0.1}, {COUNT_OCCLUDED, COUNT_SHADOWS, 0.3}, {COUNT_BVH, COUNT_TRACED, 0.1}}},
     /* primitives at odds with single precision: their frames are what their rays are, bit for bit */
     {.name = "odd",
-     .scenes = 180,
+     .scenes = 240,
      .groups = {&odd_scenes},
      .lines = {any_lines},
      .rays = 40,
@@ -214,7 +214,7 @@ const driver_profile driver_profiles[] = {
      .shows = {{COUNT_SEEN, COUNT_PIXELS, 0.1}, {COUNT_OCCLUDED, COUNT_SHADOWS, 0.2}, {COUNT_TILES, COUNT_LOADS, 1}}},
     /* frames of several tiles, and what is hard for them */
     {.name = "tiles",
-     .scenes = 120,
+     .scenes = 208,
      .groups = {&view_scenes, &cloud_scenes, &soup_scenes, &mesh_scenes},
      .primitives = 600,
      .lines = {any_lines},
@@ -297,13 +297,14 @@ const driver_profile driver_profiles[] = {
                {COUNT_FAST, COUNT_FAST_OFF, 500},
                {COUNT_UNBOUNDED, COUNT_SCENES, 100},
                {COUNT_UNBOUNDED, COUNT_UNBOUNDED_WRONG, 2500}}},
-    /* the known troubles of ray casters, by name */
+    /* the known troubles of ray casters, by name, and cameras that look along their rays */
     {.name = "cases",
      .scenes = 166,
      .groups = {&case_scenes},
      .lines = {case_lines},
      .rays = 400,
-     .calls = {&call_nearest},
+     .pixels = 1024,
+     .calls = {&call_nearest, &call_frames},
      .ways = DRIVER_ANY_WAY,
      .loads = 4,
      .shows = {{COUNT_HITS, COUNT_SCENES, 100},

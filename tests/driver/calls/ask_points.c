@@ -107,7 +107,7 @@ void driver_points_begin(driver_run *run, driver_view *w)
     w->lit = DRIVER_POINTS + (most && random_below(r, 2) ? most : random_below(r, 1 + most));
     w->lit_ranges = driver_samples(run) ? random_below(r, 4) == 0 : random_below(r, 2);
     w->lit_every = driver_every(run, w->lit, run->profile->pixels ? DRIVER_SAMPLE : DRIVER_LIT_SAMPLE);
-    w->lit_masks = run->profile->masks && random_below(r, 2);
+    w->lit_masks = run->profile->masks && random_below(r, 4) == 0;
     w->lit_skips = run->profile->skips && random_below(r, 4);
     make_points(run, w);
     for (uint32_t i = 0; i < w->lit; i++) {
@@ -125,17 +125,22 @@ void driver_points_begin(driver_run *run, driver_view *w)
 
 /* ---- what they skip ---- */
 
-/* Points skip what they meet, or their neighbours do, or a number that would be it in the geometry before. */
+/* Points skip what they meet, or their neighbours do; or a primitive of the geometry before, or a number that would be it
+ * behind the last one of that. */
 static void skip_hit(driver_run *run, judge_ray *ray, const full_hit *hit, uint32_t way)
 {
     ray->skip_primitive = CGT_INVALID_ID;
     ray->skip_geometry = 0;
     if (hit->primitive == CGT_INVALID_ID)
         return;
-    const bool beyond = way == 2 && hit->geometry > 0;
-    ray->skip_geometry = hit->geometry - (beyond ? 1 : 0);
-    ray->skip_primitive = hit->primitive + (beyond ? run->scene.geometry[hit->geometry - 1].count : 0);
     run->count[COUNT_SKIPPING]++;
+    ray->skip_geometry = hit->geometry;
+    ray->skip_primitive = hit->primitive;
+    if (way < 2 || !hit->geometry)
+        return;
+    const uint32_t count = run->scene.geometry[--ray->skip_geometry].count;
+    ray->skip_primitive =
+        count && random_below(&run->scene.random, 2) ? random_below(&run->scene.random, count) : count + hit->primitive;
 }
 
 /* Point by point, by turns of 64, so that vectors agree, or in one way. */
@@ -145,13 +150,13 @@ static void skip_hits(driver_run *run, driver_view *w)
     test_random *const r = &run->scene.random;
     const cgt_rays rays = driver_ray_array(w->to_lit, w->lit);
     const cgt_hits hits = hit_array(hit);
-    const uint32_t turn = (uint32_t[]){1, 64, DRIVER_LIT}[random_below(r, 3)];
+    const uint32_t turn = (uint32_t[]){1, 64, DRIVER_LIT, DRIVER_LIT}[random_below(r, 4)];
     if (!driver_succeeds(run, cgt_trace_rays(run->setup.scene, &rays, &hits, NULL), "cgt_trace_rays"))
         return;
     uint32_t way = 0;
     for (uint32_t i = 0; i < w->lit; i++) {
         if (i % turn == 0)
-            way = random_below(r, turn == DRIVER_LIT ? 3 : 5);
+            way = turn == DRIVER_LIT && random_below(r, 2) ? 2 : random_below(r, 5);
         if (way < 3)
             skip_hit(run, &w->to_lit[i], &hit[way == 1 && i ? i - 1 : i], way);
     }
@@ -161,7 +166,7 @@ static void skip_hits(driver_run *run, driver_view *w)
 
 static void find_shadows(driver_run *run, driver_view *w)
 {
-    if (w->lit_skips && driver_samples(run) && random_below(&run->scene.random, 3))
+    if (w->lit_skips && driver_samples(run) && random_below(&run->scene.random, 6))
         skip_hits(run, w);
     for (uint32_t i = 0; i < w->lit; i++)
         if (driver_is_one_of(w->lit_every, i))

@@ -88,7 +88,7 @@ static void make_camera(driver_run *run, driver_view *w)
         random_direction(r, c->up);
     if (random_below(r, 6) == 0)
         look_along(s, c);
-    if (run->profile->pixels && random_below(r, 8) == 0)
+    if (run->profile->pixels && random_below(r, 4) == 0)
         look_along_ray(run, c);
     c->fov = random_below(r, 4) ? random_float(r, 5, 130) : fov[random_below(r, TEST_COUNT(fov))];
     c->projection = random_below(r, 3) ? CGT_PROJECTION_PERSPECTIVE : CGT_PROJECTION_ORTHOGRAPHIC;
