@@ -151,6 +151,18 @@ static bool trace_part(driver_run *run, driver_view *w, const cgt_frame *frame, 
     return true;
 }
 
+/* Where a frame has no planes of positions. */
+static void find_places(driver_view *w)
+{
+    for (uint32_t i = 0; i < w->pixels; i++) {
+        float place[3] = {INFINITY, INFINITY, INFINITY};
+        if (driver_is_hit(w, i))
+            driver_position(w, i, place);
+        for (int a = 0; a < 3; a++)
+            w->got.position[a][i] = place[a];
+    }
+}
+
 /* The rows in two calls; those that are not asked for stay. */
 static bool trace_rows(driver_run *run, driver_view *w, cgt_precision precision)
 {
@@ -158,6 +170,9 @@ static bool trace_rows(driver_run *run, driver_view *w, cgt_precision precision)
     const bool whole = w->rows == w->height;
     cgt_frame frame = whole && random_below(r, 5) ? dense_frame(w) : visited_frame(w);
     const uint32_t cut = whole ? random_below(r, w->height + 1) : 0;
+    const bool has_places = frame.visitor || random_below(r, 3) == 0;
+    for (int a = 0; a < 3 && !has_places; a++)
+        frame.position[a] = NULL;
     clear_planes(w);
     if (cut && cut < w->height) {
         frame.row_count = cut;
@@ -169,7 +184,10 @@ static bool trace_rows(driver_run *run, driver_view *w, cgt_precision precision)
         frame.first_row = cut;
         frame.row_count = 0;
     }
-    return trace_part(run, w, &frame, precision);
+    const bool good = trace_part(run, w, &frame, precision);
+    if (good && !has_places)
+        find_places(w);
+    return good;
 }
 
 /* Planes of triples, with gaps between rows, must have the same bits. */
