@@ -51,7 +51,7 @@ static void look_along_ray(driver_run *run, cgt_camera *c)
     }
 }
 
-/* Where the scene's vertices are on the rays of pixels. */
+/* As the scene is made for. */
 static void look_as_aimed(driver_run *run, driver_view *w)
 {
     cgt_camera *const c = &w->camera;

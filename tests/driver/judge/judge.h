@@ -22,8 +22,7 @@ typedef struct judge_geometry {
     uint32_t mask;         /* as given: 0 is all bits */
 } judge_geometry;
 
-/* Whether it has vertices on the rays of a camera at the origin that sees 64x64 pixels along z, by 90 degrees or with a
- * height of 2. */
+/* Whether it is made for a camera at the origin that sees 64x64 pixels along z, by 90 degrees or with a height of 2. */
 typedef enum scene_aims { SCENE_AIMS_NOT, SCENE_AIMS_CONE, SCENE_AIMS_PARALLEL } scene_aims;
 
 typedef struct judge_scene {

@@ -284,7 +284,7 @@ static void kind_scene_make(kind_scene *s, uint32_t kind, uint64_t stream)
     s->random = random_make(stream);
     any_point(s, 1, s->shared);
     /* any sorts, as bits: spheres, triangles, capsules */
-    const uint32_t sorts = 1 + random_below(&s->random, 7);
+    const uint32_t any = 1 + random_below(&s->random, 7), sorts = kinds[kind].change == cancelling ? 2 : any;
     s->spheres = sorts & 1 ? 1 + random_below(&s->random, most) : 0;
     s->triangles = sorts & 2 ? 1 + random_below(&s->random, most) : 0;
     s->capsules = sorts & 4 ? 1 + random_below(&s->random, most) : 0;

@@ -38,7 +38,7 @@ static void square(scene_heap *h, float corner[4][3])
 
 /* ---- meshes before the eye ---- */
 
-/* Waves of n x n squares. */
+/* Waves of n x n squares, which a tile sees as a whole. */
 static void fine_sheet(scene_heap *h)
 {
     const uint32_t n = below(h, 3) ? 30 + below(h, 5) : 8 + below(h, 40);
@@ -47,10 +47,11 @@ static void fine_sheet(scene_heap *h)
         for (uint32_t k = 0; k < 4; k++) {
             corner[k][0] = 2 * (float)(i % n + k % 2) / (float)n - 1;
             corner[k][1] = 2 * (float)(i / n + k / 2) / (float)n - 1;
-            corner[k][2] = 0.1f * sinf(7 * corner[k][0]) * cosf(5 * corner[k][1]);
+            corner[k][2] = 1.1f + 0.1f * sinf(7 * corner[k][0]) * cosf(5 * corner[k][1]);
         }
         square(h, corner);
     }
+    h->scene->aims = SCENE_AIMS_CONE;
 }
 
 /* All larger than a picture, and close in depth. */
