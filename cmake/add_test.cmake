@@ -6,9 +6,9 @@
 #       A cmocka program. It may include the internal headers. It links cgt_test_support and the library: the shared
 #       object cgt_visible where there is one. STATIC takes the archive, for tests that replace functions of the library
 #       or of the system, or measure; a test that includes a .c file replaces what is in it, and is STATIC by itself.
-#   cgt_add_variant_test(<name> [SLOW] [ALL_ROWS] <sources>... [LABELS ...] [LIBRARIES ...] [TIMEOUT ...])
+#   cgt_add_variant_test(<name> [SLOW] <sources>... [LABELS ...] [LIBRARIES ...] [TIMEOUT ...])
 #       The same, compiled and run once per row of the variant table, as <name>_<row>. CGT_TEST_ROWS names the rows, where
-#       all are too many; a test with the label `words` or with ALL_ROWS is built for every row all the same.
+#       all are too many; a test with the label `words` is built for every row all the same.
 #   cgt_add_cluster_test(<name> [SLOW] [VARIANTS] [LABELS ...] [LIBRARIES ...] [TIMEOUT ...])
 #       Runs a test from above again, as <name>_clusters[_<row>]. clusters/always_clusters.c replaces the library's
 #       choice, so that every geometry of triangles gets clusters, however small and wherever it lies.
@@ -143,12 +143,11 @@ function(cgt_shorten_test name row)
 endfunction()
 
 function(cgt_add_variant_test name)
-    cmake_parse_arguments(test "ALL_ROWS" "" "" ${ARGN})
     set(rows ${CGT_TEST_ROWS})
-    if(NOT rows OR test_ALL_ROWS OR "words" IN_LIST ARGN)
+    if(NOT rows OR "words" IN_LIST ARGN)
         set(rows ${CGT_VARIANTS})
     endif()
-    set(sources ${test_UNPARSED_ARGUMENTS})
+    set(sources ${ARGN})
     list(FILTER sources INCLUDE REGEX "\\.c$")
     set(asks "")
     foreach(source IN LISTS sources)
@@ -160,7 +159,7 @@ function(cgt_add_variant_test name)
     endif()
     foreach(row IN LISTS CGT_VARIANTS)
         if(row IN_LIST rows)
-            cgt_add_test(${name}_${row} ${test_UNPARSED_ARGUMENTS})
+            cgt_add_test(${name}_${row} ${ARGN})
         endif()
         if(TARGET ${name}_${row})
             cgt_use_variant(${name}_${row} ${row})

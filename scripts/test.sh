@@ -31,8 +31,8 @@
 #   everything  the whole matrix, before a release
 # What `everything` and --whole run and the single suites and `all` leave out:
 #   all suites  tests by row of the variant table, for the rows between the portable one and the widest that this CPU
-#               runs: these have the text of one of the two. Vector words, test_tile_frames and whatever asks the library
-#               for all its variants run for every row. Of sanitize, tsan and aarch64 it is the widest row alone
+#               runs: these have the text of one of the two. Vector words and whatever asks the library for all its
+#               variants run for every row. Of sanitize, tsan and aarch64 it is the widest row alone
 #   release     the full length of the tests that run again with clusters in all triangles (*_clusters): a third of it;
 #               -O3 for the modules in C++ (-O0)
 #   sanitize    these tests; pointer-overflow in kernels, which takes half the compiler's time (addresses that are used are

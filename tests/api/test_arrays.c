@@ -3,7 +3,8 @@
  *
  * Arrays as simulations have them: doubles with an origin, structs without padding, radii by type, 16-bit indices. A
  * scene of each has the hits, bit for bit, of a scene over the floats that its numbers are rounded to. Arrays that the
- * commit copies are not read after it. */
+ * commit copies are not read after it. No profile of tests/driver, whose numbers are floats in every form, so that all
+ * loads have the same truth: this asks how numbers are rounded and arrays are told. */
 #include "support/closed_meshes.h"
 #include "support/suite.h"
 #include "support/scenes.h"

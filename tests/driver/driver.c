@@ -188,7 +188,8 @@ static void make_points(driver_run *run)
         if (i % 4)
             line_place(&run->scene, run->point[i]);
         for (int a = 0; a < 3 && i % 4 == 0; a++)
-            run->point[i][a] = i % 8 ? run->scene.scale * line_gauss(r) : 0.5f * ((float)random_below(r, 9) - 1);
+            run->point[i][a] =
+                i % 8 ? run->scene.scale * line_gauss(r) : 0.5f * run->scene.step * ((float)random_below(r, 9) - 1);
         run->point_mask[i] = random_below(r, 4) ? 0 : random_below(r, 16);
     }
 }

@@ -17,8 +17,12 @@
 #define DRIVER_RAYS 1024u
 #define DRIVER_LISTED 40u /* rays whose hits are all asked for */
 #define DRIVER_POINTS 48u
-#define DRIVER_LIT 640u /* points against a light */
-#define DRIVER_PIXELS 512u
+#define DRIVER_LIT 4097u       /* points against a light */
+#define DRIVER_PIXELS 16640u   /* of a frame: more than two tiles by two */
+#define DRIVER_SMALL 512u      /* of the frames of most profiles */
+#define DRIVER_JUDGED 640u     /* of the points, or of the pixels: all, */
+#define DRIVER_SAMPLE 40u      /* but about as many pixels in profiles with more, */
+#define DRIVER_LIT_SAMPLE 256u /* and of the points as many */
 #define DRIVER_LIGHTS 2u
 #define DRIVER_SAMPLES 3u
 #define DRIVER_LIST 2048u /* hits of a ray, for calls that list them */
@@ -39,6 +43,9 @@
     X(SEEN, "pixels with a hit")                                                                                       \
     X(SHADOWS, "shadow rays")                                                                                          \
     X(OCCLUDED, "occluded")                                                                                            \
+    X(LIT, "points against a light")                                                                                   \
+    X(LIT_OCCLUDED, "of them occluded")                                                                                \
+    X(LIT_TILES, "tiles of them")                                                                                      \
     X(BOUNCES, "bounces")                                                                                              \
     X(OWN, "far sides of what a ray is in")                                                                            \
     X(MASKED, "rays with a mask")                                                                                      \
@@ -54,11 +61,16 @@
     X(INVALID, "invalid")                                                                                              \
     X(BVH, "through a BVH")                                                                                            \
     X(PACKETS, "packets")                                                                                              \
+    X(TILES, "tiles")                                                                                                  \
     X(SPLIT, "packets split")                                                                                          \
     X(TESTS, "tests")                                                                                                  \
     X(DOUBLE, "decided in double")                                                                                     \
     X(EXACT, "decided exactly")                                                                                        \
     X(EXACT_VALUES, "values found exactly")                                                                            \
+    X(FAST, "values of FAST")                                                                                          \
+    X(FAST_OFF, "values far off")                                                                                      \
+    X(WATERTIGHT, "by the watertight test")                                                                            \
+    X(LEAKS, "leaks of it")                                                                                            \
     X(UNBOUNDED, "by a triangle test without a bound")                                                                 \
     X(UNBOUNDED_WRONG, "wrong by it")
 
@@ -79,7 +91,7 @@ typedef struct driver_call {
     void (*ask)(driver_run *run);
 } driver_call;
 
-extern const driver_call call_nearest, call_lists, call_inside, call_frames, call_bounces;
+extern const driver_call call_nearest, call_lists, call_inside, call_frames, call_points, call_bounces;
 
 /* What a test must have counted: at least so much for each of another counter. */
 typedef struct driver_show {
@@ -97,6 +109,7 @@ typedef struct driver_profile {
     line_maker *lines[6];        /* those of a scene, one after another */
     uint32_t rays;               /* of a scene, at most */
     uint32_t lit;                /* points against a light, at most; 0: few */
+    uint32_t pixels;             /* of large frames, at most; 0: all frames are small */
     uint32_t masks, skips, cuts; /* one ray of so many has a mask, skips a primitive, ends or begins at a hit */
     const driver_call *calls[4];
     unsigned ways;  /* a set of support/ways.h, or any; 0: AUTO first, and half of the others */

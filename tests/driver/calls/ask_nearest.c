@@ -9,38 +9,72 @@
 
 /* ---- arrays ---- */
 
-/* The arrays of one call: those of run->ray, or each number in an array of its own; those that are the default for all
- * rays may be NULL. */
+#define WIDEST 5u /* words from one number, or vector, to the next */
+#define WORDS (WIDEST * DRIVER_RAYS)
+
+/* How arrays are laid out, in words: triples if vectors are wide enough, else components apart. */
+typedef struct layout {
+    uint32_t step, wide;
+} layout;
+
+static layout make_layout(test_random *r)
+{
+    const uint32_t step = random_below(r, 3) ? 1 : 1 + random_below(r, WIDEST);
+    return (layout){step, random_below(r, 2) ? step : 1 + random_below(r, WIDEST)};
+}
+
+/* A stride in bytes; 0 now and then where that says the same. */
+static size_t stride_of(test_random *r, uint32_t words, uint32_t without)
+{
+    return words == without && random_below(r, 2) ? 0 : 4 * words;
+}
+
+static float *component(float *vectors, const layout *l, uint32_t a)
+{
+    return vectors + (size_t)a * (l->wide >= 3 ? 1 : WORDS);
+}
+
+/* The arrays of one call: those of run->ray, or others with two strides; those that are the default for all rays may be
+ * NULL. */
 typedef struct ray_arrays {
-    float number[8][DRIVER_RAYS];
-    uint32_t id[3][DRIVER_RAYS];
+    float org[3 * WORDS], dir[3 * WORDS], t_min[WORDS], t_max[WORDS];
+    uint32_t id[3][WORDS];
     cgt_rays rays;
 } ray_arrays;
 
-static void copy_rays(const judge_ray *ray, uint32_t count, ray_arrays *a)
+static void copy_rays(test_random *r, const judge_ray *ray, uint32_t count, ray_arrays *to)
 {
-    for (uint32_t i = 0; i < count; i++) {
-        for (int k = 0; k < 8; k++)
-            memcpy(&a->number[k][i], (const char *)&ray[i].line + k * sizeof(float), sizeof(float));
-        a->id[0][i] = ray[i].mask;
-        a->id[1][i] = ray[i].skip_primitive;
-        a->id[2][i] = ray[i].skip_geometry;
+    const layout l = make_layout(r);
+    to->rays = (cgt_rays){.count = count,
+                          .stride = stride_of(r, l.step, 1),
+                          .vector_stride = stride_of(r, l.wide, l.step),
+                          .t_min = to->t_min,
+                          .t_max = to->t_max,
+                          .mask = to->id[0],
+                          .skip_primitive = to->id[1],
+                          .skip_geometry = to->id[2]};
+    for (uint32_t a = 0; a < 3; a++) {
+        to->rays.org[a] = component(to->org, &l, a);
+        to->rays.dir[a] = component(to->dir, &l, a);
     }
-    a->rays = (cgt_rays){.count = count,
-                         .org = {a->number[0], a->number[1], a->number[2]},
-                         .dir = {a->number[3], a->number[4], a->number[5]},
-                         .t_min = a->number[6],
-                         .t_max = a->number[7],
-                         .mask = a->id[0],
-                         .skip_primitive = a->id[1],
-                         .skip_geometry = a->id[2]};
+    for (uint32_t i = 0; i < count; i++) {
+        for (uint32_t a = 0; a < 3; a++) {
+            component(to->org, &l, a)[i * l.wide] = ray[i].line.org[a];
+            component(to->dir, &l, a)[i * l.wide] = ray[i].line.dir[a];
+        }
+        to->t_min[i * l.step] = ray[i].line.t_min;
+        to->t_max[i * l.step] = ray[i].line.t_max;
+        to->id[0][i * l.step] = ray[i].mask;
+        to->id[1][i * l.step] = ray[i].skip_primitive;
+        to->id[2][i * l.step] = ray[i].skip_geometry;
+    }
 }
 
 static void omit_defaults(const judge_ray *ray, uint32_t count, cgt_rays *rays)
 {
     bool t_min = false, t_max = false, mask = false, skip = false;
     for (uint32_t i = 0; i < count; i++) {
-        t_min |= ray[i].line.t_min != 0;
+        t_min |= ray[i].line.t_min != 0 || signbit(ray[i].line.t_min); /* of FAST, t may have its sign */
         t_max |= ray[i].line.t_max != INFINITY;
         mask |= ray[i].mask != 0;
         skip |= ray[i].skip_primitive != CGT_INVALID_ID;
@@ -58,10 +92,54 @@ static cgt_rays make_arrays(driver_run *run, uint32_t from, uint32_t count)
     test_random *const r = &run->scene.random;
     a.rays = driver_ray_array(run->ray + from, count);
     if (random_below(r, 2))
-        copy_rays(run->ray + from, count, &a);
+        copy_rays(r, run->ray + from, count, &a);
     if (random_below(r, 3))
         omit_defaults(run->ray + from, count, &a.rays);
     return a.rays;
+}
+
+/* Hits in arrays with two strides; what lies between stays. */
+typedef struct hit_arrays {
+    layout l;
+    float t[WORDS], normal[3 * WORDS], u[WORDS], v[WORDS];
+    uint32_t primitive[WORDS], geometry[WORDS];
+} hit_arrays;
+
+static cgt_hits spread_hits(test_random *r, hit_arrays *h)
+{
+    h->l = make_layout(r);
+    cgt_hits hits = {.stride = stride_of(r, h->l.step, 1),
+                     .vector_stride = stride_of(r, h->l.wide, h->l.step),
+                     .t = h->t,
+                     .primitive = h->primitive,
+                     .geometry = h->geometry,
+                     .u = h->u,
+                     .v = h->v};
+    for (uint32_t a = 0; a < 3; a++)
+        hits.normal[a] = component(h->normal, &h->l, a);
+    memset(h->t, 0x77, sizeof h->t);
+    memset(h->normal, 0x77, sizeof h->normal);
+    return hits;
+}
+
+/* Whether only words of hits were written. */
+static bool collect_hits(hit_arrays *h, uint32_t count, full_hit *to)
+{
+    const uint32_t odd = 0x77777777u;
+    bool only = true;
+    for (uint32_t i = 0; i < count; i++) {
+        const size_t at = (size_t)i * h->l.step;
+        to[i] = (full_hit){h->t[at], h->primitive[at], h->geometry[at], {0}, {h->u[at], h->v[at]}};
+        memcpy(&h->t[at], &odd, sizeof odd);
+        for (uint32_t a = 0; a < 3; a++) {
+            float *const n = component(h->normal, &h->l, a) + (size_t)i * h->l.wide;
+            to[i].normal[a] = *n;
+            memcpy(n, &odd, sizeof odd);
+        }
+    }
+    for (uint32_t k = 0; k < 3 * count; k++)
+        only &= !memcmp(&h->normal[k], &odd, sizeof odd) && !memcmp(&h->t[k], &odd, sizeof odd);
+    return only;
 }
 
 /* ---- calls ---- */
@@ -72,15 +150,27 @@ typedef struct decision {
     cgt_triangle_test triangle_test;
 } decision;
 
+static bool is_invalid(const truth_ray *line)
+{
+    float sum = 0, longest = 0;
+    for (int a = 0; a < 3; a++) {
+        sum += 0 * line->org[a] + 0 * line->dir[a];
+        longest = fmaxf(longest, fabsf(line->dir[a]));
+    }
+    return sum != 0 || isnan(sum) || longest == 0 || isnan(line->t_min) || isnan(line->t_max);
+}
+
 static bool call_part(driver_run *run, uint32_t from, uint32_t count, const decision *d, full_hit *hit,
                       uint8_t *occluded)
 {
     cgt_trace_statistics statistics;
     cgt_research_trace_statistics research;
+    static hit_arrays arrays;
     test_trace_options o = driver_options(run, d->precision);
     const cgt_rays rays = make_arrays(run, from, count);
-    const cgt_hits hits = hit_array(hit + from);
-    uint64_t found = 0;
+    const bool spread = random_below(&run->scene.random, 3) == 0;
+    const cgt_hits hits = spread ? spread_hits(&run->scene.random, &arrays) : hit_array(hit + from);
+    uint64_t found = 0, invalid = 0;
     o.triangle_test = d->triangle_test;
     o.statistics = &statistics;
     o.research_statistics = &research;
@@ -88,9 +178,16 @@ static bool call_part(driver_run *run, uint32_t from, uint32_t count, const deci
     memset(occluded + from, 9, count);
     if (!driver_succeeds(run, cgt_trace_rays(run->setup.scene, &rays, &hits, TRACE_OPTIONS(&o)), "cgt_trace_rays"))
         return false;
-    for (uint32_t i = from; i < from + count; i++)
+    if (spread && !collect_hits(&arrays, count, hit + from))
+        driver_fail(run, NULL, "cgt_trace_rays", "a word between hits is written");
+    for (uint32_t i = from; i < from + count; i++) {
         found += hit[i].primitive != CGT_INVALID_ID;
+        invalid += is_invalid(&run->ray[i].line);
+    }
     driver_check_statistics(run, &statistics, count, found);
+    if (statistics.invalid_rays != invalid)
+        driver_fail(run, NULL, "statistics", "%llu invalid rays, not %llu", (unsigned long long)statistics.invalid_rays,
+                    (unsigned long long)invalid);
     if (research.rope_loops || research.rope_steps > research.leaves)
         driver_fail(run, NULL, "statistics", "%llu steps by ropes to %llu leaves, %llu loops",
                     (unsigned long long)research.rope_steps, (unsigned long long)research.leaves,
@@ -118,6 +215,56 @@ static bool call_arrays(driver_run *run, const decision *d, full_hit *hit, uint8
 
 /* ---- answers ---- */
 
+/* The true hit that an answer names, with its values, or NULL. */
+static const judge_hit *named_hit(const driver_run *run, uint32_t i, const full_hit *h)
+{
+    uint32_t at = 0;
+    const int64_t k = h->primitive == CGT_INVALID_ID ? -1
+                                                     : judge_next(&run->scene, &run->pool, &run->right[i], &at,
+                                                                  h->geometry, h->primitive, -1, NAN);
+    return k >= 0 && run->pool.hit[k].has_values ? &run->pool.hit[k] : NULL;
+}
+
+static double length_of(const float d[3])
+{
+    return sqrt((double)d[0] * d[0] + (double)d[1] * d[1] + (double)d[2] * d[2]);
+}
+
+/* FAST values, and those whose t is beyond 1e-3 of the scene, or u, v or the normal beyond 1e-3. */
+static void count_fast(driver_run *run, uint32_t i, const full_hit *h)
+{
+    const judge_hit *const right = named_hit(run, i, h);
+    double uv = 0, normal = 0;
+    if (!right)
+        return;
+    for (int k = 0; k < 2; k++)
+        uv = fmax(uv, fabs((double)h->uv[k] - (double)right->values.uv[k]));
+    for (int a = 0; a < 3; a++)
+        normal = fmax(normal, fabs((double)h->normal[a] - (double)right->values.normal[a]));
+    const double way = fabs((double)h->t - (double)right->values.t) * length_of(run->ray[i].line.dir);
+    run->count[COUNT_FAST]++;
+    run->count[COUNT_FAST_OFF] += fmax(way / (double)run->scene.scale, fmax(uv, normal)) > 1e-3;
+}
+
+/* Whether a ray from well inside a closed mesh leaves it at an edge: the watertight test of single precision may leak beside
+ * vertices alone, where more than two triangles meet. */
+static bool leaks_at_edge(driver_run *run, uint32_t i, const full_hit *h)
+{
+    const judge_truth *const right = &run->right[i];
+    const judge_ray *const ray = &run->ray[i];
+    if (!right->count || !run->scene.closed)
+        return false;
+    const judge_hit *const hit = &run->pool.hit[right->first];
+    const double u = (double)hit->values.uv[0], v = (double)hit->values.uv[1];
+    const double way = (double)hit->values.t * length_of(ray->line.dir);
+    run->count[COUNT_WATERTIGHT]++;
+    if (h->primitive != CGT_INVALID_ID || hit->doubtful || ray->line.t_max < INFINITY ||
+        way < 0.01 * (double)run->scene.scale || !judge_inside(&run->scene, ray->line.org, ray->mask, true))
+        return false;
+    run->count[COUNT_LEAKS]++;
+    return hit->has_values && fmax(fmax(u, v), 1 - u - v) < 0.999;
+}
+
 static void judge_hits(driver_run *run, const decision *d, const full_hit *hit, const uint8_t *occluded)
 {
     const bool fast = d->precision == CGT_PRECISION_FAST, bound = d->triangle_test == CGT_TRIANGLE_TEST_AUTO;
@@ -129,6 +276,10 @@ static void judge_hits(driver_run *run, const decision *d, const full_hit *hit, 
         run->count[COUNT_UNBOUNDED] += !bound;
         run->count[COUNT_UNBOUNDED_WRONG] += !bound && wrong;
         wrong = bound ? wrong : NULL;
+        if (fast)
+            count_fast(run, i, h);
+        if (d->triangle_test == CGT_TRIANGLE_TEST_WATERTIGHT && leaks_at_edge(run, i, h))
+            wrong = "the watertight test leaks at an edge";
         if (!wrong && bound && occluded[i] != (h->primitive != CGT_INVALID_ID))
             wrong = occluded[i] ? "occluded, and no hit" : "not occluded, and a hit";
         if (!wrong && !fast && run->setup.number && memcmp(h, &run->first[i], sizeof *h) != 0)
@@ -176,26 +327,46 @@ static void check_alone(driver_run *run, const decision *d, const full_hit *hit)
         run->count[COUNT_ANSWERS] += 2;
         if (memcmp(&got, &hit[i], sizeof got) != 0 || any != met || (!fast && !is_on_surface(run, i, &alone)) ||
             counts.rays != 1 || (!without && counts.hits != met))
-            driver_fail(run, &run->ray[i], "cgt_trace_ray",
-                        "one ray is %d.%d at %a, surface %u, occluded %d, %llu hits of %llu, not as in the array",
+            driver_fail(run, &run->ray[i], fast ? "cgt_trace_ray, fast" : "cgt_trace_ray",
+                        "one ray is %d.%d at %a, surface %u, occluded %d, %llu hits of %llu, not %d.%d at %a as in the "
+                        "array",
                         (int)got.geometry, (int)got.primitive, (double)got.t, alone.surface, any,
-                        (unsigned long long)counts.hits, (unsigned long long)counts.rays);
+                        (unsigned long long)counts.hits, (unsigned long long)counts.rays, (int)hit[i].geometry,
+                        (int)hit[i].primitive, (double)hit[i].t);
     }
 }
 
-/* A call that wants ids alone finds the same ones. */
-static void check_ids(driver_run *run, const full_hit *hit)
+/* A call that wants any set of fields has their bits, and leaves the others. */
+static void check_fields(driver_run *run, const full_hit *hit)
 {
-    static uint32_t primitive[DRIVER_RAYS], geometry[DRIVER_RAYS];
+    static full_hit got[DRIVER_RAYS];
     const cgt_rays rays = make_arrays(run, 0, run->rays);
-    const cgt_hits ids = {.primitive = primitive, .geometry = random_below(&run->scene.random, 2) ? geometry : NULL};
     const test_trace_options o = driver_options(run, CGT_PRECISION_EXACT);
-    if (!driver_succeeds(run, cgt_trace_rays(run->setup.scene, &rays, &ids, TRACE_OPTIONS(&o)), "cgt_trace_rays"))
+    const uint32_t fields = random_below(&run->scene.random, 32);
+    cgt_hits hits = hit_array(got);
+    hits.t = fields & CGT_FIELD_T ? hits.t : NULL;
+    hits.primitive = fields & CGT_FIELD_PRIMITIVE ? hits.primitive : NULL;
+    hits.geometry = fields & CGT_FIELD_GEOMETRY ? hits.geometry : NULL;
+    for (int a = 0; a < 3; a++)
+        hits.normal[a] = fields & CGT_FIELD_NORMAL ? hits.normal[a] : NULL;
+    hits.u = fields & CGT_FIELD_UV ? hits.u : NULL;
+    hits.v = fields & CGT_FIELD_UV ? hits.v : NULL;
+    memset(got, 0x77, run->rays * sizeof *got);
+    if (!driver_succeeds(run, cgt_trace_rays(run->setup.scene, &rays, &hits, TRACE_OPTIONS(&o)), "cgt_trace_rays"))
         return;
-    for (uint32_t i = 0; i < run->rays; i++)
-        if (primitive[i] != hit[i].primitive || (ids.geometry && geometry[i] != hit[i].geometry))
-            driver_fail(run, &run->ray[i], "cgt_trace_rays, ids alone", "another hit, of primitive %d",
-                        (int)primitive[i]);
+    for (uint32_t i = 0; i < run->rays; i++) {
+        full_hit want;
+        memset(&want, 0x77, sizeof want);
+        want.t = hits.t ? hit[i].t : want.t;
+        want.primitive = hits.primitive ? hit[i].primitive : want.primitive;
+        want.geometry = hits.geometry ? hit[i].geometry : want.geometry;
+        if (hits.normal[0])
+            memcpy(want.normal, hit[i].normal, sizeof want.normal);
+        if (hits.u)
+            memcpy(want.uv, hit[i].uv, sizeof want.uv);
+        if (memcmp(&got[i], &want, sizeof want) != 0)
+            driver_fail(run, &run->ray[i], "cgt_trace_rays", "fields %u have other bits", (unsigned)fields);
+    }
     run->count[COUNT_ANSWERS] += run->rays;
 }
 
@@ -217,7 +388,7 @@ static void ask(driver_run *run)
             check_alone(run, d, hit);
     }
     if (random_below(r, 4) == 0)
-        check_ids(run, hit);
+        check_fields(run, hit);
 }
 
 const driver_call call_nearest = {NULL, ask};

@@ -1,8 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Shadows of a frame's pixels and of points, ambient occlusion of the pixels. Directions are those that the API
- * defines; what the rays hit is judged. */
+ * Shadows of a frame's pixels, and ambient occlusion of them. Directions are those that the API defines; what the rays
+ * hit is judged. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -10,6 +11,22 @@
 #include "query/ambient_directions.h"
 
 /* ---- lights ---- */
+
+/* Among the primitives, beside them, or farther than tiles take. */
+static void place_light(judge_scene *s, float p[3])
+{
+    const uint32_t how = random_below(&s->random, 4);
+    float at[3], out[3];
+    line_place(s, how == 2 ? at : p);
+    if (how == 2)
+        line_place_beside(s, at, p);
+    if (how < 3)
+        return;
+    const float far = s->scale * random_log(&s->random, 1, 1e7f);
+    random_direction(&s->random, out);
+    for (int a = 0; a < 3; a++)
+        p[a] = s->middle[a] + far * out[a];
+}
 
 static void make_lights(driver_run *run, driver_view *w)
 {
@@ -21,10 +38,12 @@ static void make_lights(driver_run *run, driver_view *w)
             if (l->kind == CGT_LIGHT_DIRECTIONAL)
                 random_direction(r, l->position);
             else
-                line_place(&run->scene, l->position);
+                place_light(&run->scene, l->position);
         while (!isfinite(l->position[0] + l->position[1] + l->position[2]));
         for (int a = 0; a < 3 && random_below(r, 3) == 0; a++)
             l->position[a] = (float)random_below(r, 5) - 2;
+        for (uint32_t a = 0, along = random_below(r, 18); a < 3 && along < 3; a++)
+            l->position[a] = a == along ? l->position[a] : 0;
         if (l->kind == CGT_LIGHT_DIRECTIONAL && l->position[0] == 0 && l->position[1] == 0 && l->position[2] == 0)
             l->position[2] = 1;
     }
@@ -32,7 +51,7 @@ static void make_lights(driver_run *run, driver_view *w)
     w->shadows.t_min = random_below(r, 3) ? 0 : random_float(r, 0, 0.1f);
 }
 
-static judge_ray ray_to(const cgt_light *light, const float from[3])
+judge_ray driver_ray_to(const cgt_light *light, const float from[3])
 {
     const bool is_point = light->kind == CGT_LIGHT_POINT;
     judge_ray ray = {
@@ -42,56 +61,6 @@ static judge_ray ray_to(const cgt_light *light, const float from[3])
         ray.line.dir[a] = is_point ? light->position[a] - from[a] : light->position[a];
     }
     return ray;
-}
-
-/* Beside the one before, at a surface, or anywhere; a few that are none, or have no range. */
-static void place_lit(driver_run *run, driver_view *w, uint32_t i)
-{
-    static const float odd[] = {NAN, INFINITY, -INFINITY, 0x1p60f, -0x1p100f, 0x1p-140f};
-    test_random *r = &run->scene.random;
-    float p[3];
-    if (i < DRIVER_POINTS)
-        memcpy(p, run->point[i], sizeof p);
-    else if (i % 64 && random_below(r, 2))
-        for (int a = 0; a < 3; a++)
-            p[a] = w->to_lit[i - 1].line.org[a] + 1e-3f * run->scene.scale * random_float(r, -1, 1);
-    else
-        line_place(&run->scene, p);
-    if (i % 90 == 89)
-        p[random_below(r, 3)] = odd[random_below(r, TEST_COUNT(odd))];
-    if (i % 200 == 60)
-        memcpy(p, w->light[0].position, sizeof p);
-    w->to_lit[i] = ray_to(&w->light[0], p);
-}
-
-static void find_lit(driver_run *run, driver_view *w)
-{
-    test_random *r = &run->scene.random;
-    w->lit = DRIVER_POINTS +
-             random_below(r, 1 + (run->profile->lit > DRIVER_POINTS ? run->profile->lit - DRIVER_POINTS : 0));
-    w->lit_ranges = random_below(r, 2);
-    w->lit_filters = run->profile->masks || run->profile->skips;
-    for (uint32_t i = 0; i < w->lit; i++) {
-        judge_ray *const ray = &w->to_lit[i];
-        place_lit(run, w, i);
-        if (w->lit_ranges && i % 3 == 0)
-            ray->line.t_min = random_float(r, -0.5f, 0.5f);
-        if (w->lit_ranges && i % 5 == 0)
-            ray->line.t_max = random_below(r, 4) ? random_float(r, 0, 2) : -1;
-        if (w->lit_filters) {
-            ray->mask = run->point_mask[i % DRIVER_POINTS];
-            driver_filter(run, ray, NULL);
-        }
-        w->lit_shadow[i] = driver_trace(run, ray, JUDGE_SHADOW, false);
-    }
-}
-
-void driver_position(const driver_view *w, uint32_t i, float p[3])
-{
-    for (int a = 0; a < 3; a++) {
-        const float way = w->got.t[i] * w->ray[i].line.dir[a];
-        p[a] = w->ray[i].line.org[a] + way;
-    }
 }
 
 static void find_shadows(driver_run *run, driver_view *w)
@@ -105,31 +74,34 @@ static void find_shadows(driver_run *run, driver_view *w)
             if (!driver_is_hit(w, i))
                 continue;
             driver_position(w, i, p);
-            *ray = ray_to(&w->light[k], p);
+            *ray = driver_ray_to(&w->light[k], p);
             ray->mask = w->camera.mask;
             ray->line.t_min = w->shadows.t_min;
             ray->skip_primitive = w->got.primitive[i];
             ray->skip_geometry = w->got.geometry[i];
+            if (!driver_is_one_of(w->every, i))
+                continue;
             w->shadow[k][i] = driver_trace(run, ray, JUDGE_SHADOW, false);
             run->count[COUNT_SHADOWS]++;
             run->count[COUNT_OCCLUDED] += w->shadow[k][i].count > 0;
         }
 }
 
+static uint8_t shadow_of_frame[DRIVER_LIGHTS * DRIVER_PIXELS];
+
 static void check_shadows(driver_run *run, driver_view *w, const cgt_frame *frame)
 {
-    static uint8_t occluded[DRIVER_LIGHTS * DRIVER_PIXELS];
-    memset(occluded, 9, sizeof occluded);
+    memset(shadow_of_frame, 9, (size_t)DRIVER_LIGHTS * w->pixels);
     if (!driver_succeeds(run,
                          cgt_occluded_frame(run->setup.scene, &w->camera, frame, w->light, DRIVER_LIGHTS, &w->shadows,
-                                            occluded, NULL),
+                                            shadow_of_frame, NULL),
                          "cgt_occluded_frame"))
         return;
     run->count[COUNT_ANSWERS] += (uint64_t)DRIVER_LIGHTS * w->pixels;
     for (uint32_t k = 0; k < DRIVER_LIGHTS; k++)
         for (uint32_t i = 0; i < w->pixels; i++) {
-            const uint8_t got = occluded[k * w->pixels + i];
-            if (!driver_is_occluded(run, &w->shadow[k][i], got))
+            const uint8_t got = shadow_of_frame[k * w->pixels + i];
+            if (got > 1 || (driver_is_one_of(w->every, i) && !driver_is_occluded(run, &w->shadow[k][i], got)))
                 driver_fail(run, &w->to_light[k][i], "cgt_occluded_frame", "pixel %u, %u, light %u: %u",
                             (unsigned)(i % w->width), (unsigned)(i / w->width), (unsigned)k, got);
         }
@@ -145,48 +117,97 @@ static void check_shadow_rays(driver_run *run, driver_view *w)
         return;
     run->count[COUNT_ANSWERS] += w->pixels;
     for (uint32_t i = 0; i < w->pixels; i++)
-        if (!driver_is_occluded(run, &w->shadow[k][i], occluded[i]))
+        if (occluded[i] != shadow_of_frame[k * w->pixels + i])
             driver_fail(run, &w->to_light[k][i], "cgt_occluded_rays", "the shadow ray of pixel %u, %u: %u",
                         (unsigned)(i % w->width), (unsigned)(i / w->width), occluded[i]);
 }
 
-/* As rays, too: a point that is its light's place has none. */
-void driver_points_ask(driver_run *run, driver_view *w)
+/* ---- places that are none ---- */
+
+/* A frame's t, some of which leads to no place or beyond all numbers, in planes with gaps; and the points of its hits. */
+typedef struct spoilt_frame {
+    cgt_frame frame;
+    bool skips;
+    float t[2 * DRIVER_PIXELS];
+    uint32_t primitive[2 * DRIVER_PIXELS], geometry[2 * DRIVER_PIXELS];
+    uint32_t points;
+    judge_ray point[DRIVER_PIXELS];
+    size_t at[DRIVER_PIXELS]; /* of its pixel in the planes */
+} spoilt_frame;
+
+static void spoil(driver_run *run, const driver_view *w, spoilt_frame *s)
 {
-    static uint8_t occluded[DRIVER_LIT + 1], by_rays[DRIVER_LIT];
-    const judge_ray *const r = w->to_lit;
-    const uint32_t count = random_below(&run->scene.random, 4) ? w->lit : 1 + random_below(&run->scene.random, w->lit);
-    const cgt_points points = {.count = count,
-                               .stride = sizeof *r,
-                               .position = {&r->line.org[0], &r->line.org[1], &r->line.org[2]},
-                               .t_min = w->lit_ranges ? &r->line.t_min : NULL,
-                               .t_max = w->lit_ranges ? &r->line.t_max : NULL,
-                               .mask = w->lit_filters ? &r->mask : NULL,
-                               .skip_primitive = w->lit_filters ? &r->skip_primitive : NULL,
-                               .skip_geometry = w->lit_filters ? &r->skip_geometry : NULL};
-    const cgt_rays rays = driver_ray_array(r, count);
-    cgt_trace_statistics statistics[2];
-    test_trace_options o = driver_options(run, (cgt_precision)random_below(&run->scene.random, 2));
-    uint64_t hits = 0;
-    memset(occluded, 9, sizeof occluded);
-    o.statistics = &statistics[0];
-    if (!driver_succeeds(run, cgt_occluded_points(run->setup.scene, &w->light[0], &points, occluded, TRACE_OPTIONS(&o)),
+    static const float bad[] = {NAN, FLT_MAX, -FLT_MAX};
+    test_random *const r = &run->scene.random;
+    cgt_frame_init(&s->frame, w->width, w->height);
+    s->frame.row_stride = w->width + random_below(r, w->width);
+    s->skips = random_below(r, 2);
+    s->frame.t = s->t;
+    s->frame.primitive = s->skips ? s->primitive : NULL;
+    s->frame.geometry = s->skips ? s->geometry : NULL;
+    s->points = 0;
+    for (uint32_t i = 0; i < w->pixels; i++) {
+        const size_t at = i / w->width * s->frame.row_stride + i % w->width;
+        const bool spoils = driver_is_hit(w, i) && random_below(r, 16) == 0;
+        s->t[at] = spoils ? bad[random_below(r, TEST_COUNT(bad))] : w->got.t[i];
+        s->primitive[at] = w->got.primitive[i];
+        s->geometry[at] = w->got.geometry[i];
+        if (!driver_is_hit(w, i))
+            continue;
+        judge_ray *const p = &s->point[s->points];
+        *p = (judge_ray){.line.t_min = w->shadows.t_min, .mask = w->camera.mask};
+        driver_place(&w->ray[i].line, s->t[at], p->line.org);
+        p->skip_primitive = w->got.primitive[i];
+        p->skip_geometry = w->got.geometry[i];
+        s->at[s->points++] = at;
+    }
+}
+
+/* Shadows of such a frame are those of its points, with one of them as the light's place, and so are the counts. */
+static void check_spoilt(driver_run *run, driver_view *w)
+{
+    static spoilt_frame s;
+    static uint8_t got[2 * DRIVER_PIXELS], want[DRIVER_PIXELS];
+    cgt_light light = w->light[0];
+    cgt_trace_statistics by_frame, by_points;
+    spoil(run, w, &s);
+    const judge_ray *const p = s.point;
+    if (light.kind == CGT_LIGHT_POINT && s.points)
+        memcpy(light.position, p[random_below(&run->scene.random, s.points)].line.org, sizeof light.position);
+    if (!isfinite(light.position[0] + light.position[1] + light.position[2]))
+        return;
+    const cgt_points points = {.count = s.points,
+                               .stride = sizeof *p,
+                               .position = {&p->line.org[0], &p->line.org[1], &p->line.org[2]},
+                               .t_min = &p->line.t_min,
+                               .mask = &p->mask,
+                               .skip_primitive = s.skips ? &p->skip_primitive : NULL,
+                               .skip_geometry = s.skips ? &p->skip_geometry : NULL};
+    memset(got, 9, sizeof got);
+    if (!driver_succeeds(run,
+                         cgt_occluded_frame(run->setup.scene, &w->camera, &s.frame, &light, 1, &w->shadows, got,
+                                            &(cgt_trace_options){.statistics = &by_frame}),
+                         "cgt_occluded_frame") ||
+        !driver_succeeds(run,
+                         cgt_occluded_points(run->setup.scene, &light, &points, want,
+                                             &(cgt_trace_options){.statistics = &by_points}),
                          "cgt_occluded_points"))
         return;
-    o.statistics = &statistics[1];
-    if (!driver_succeeds(run, cgt_occluded_rays(run->setup.scene, &rays, by_rays, TRACE_OPTIONS(&o)),
-                         "cgt_occluded_rays"))
-        return;
-    run->count[COUNT_ANSWERS] += 2 * count;
-    for (uint32_t i = 0; i < count; i++) {
-        hits += occluded[i] == 1;
-        if (!driver_is_occluded(run, &w->lit_shadow[i], occluded[i]) || by_rays[i] != occluded[i])
-            driver_fail(run, &w->to_lit[i], "cgt_occluded_points", "%u, its ray %u", occluded[i], by_rays[i]);
+    for (uint32_t i = 0; i < s.points; i++) {
+        if (got[s.at[i]] != want[i])
+            driver_fail(run, &p[i], "cgt_occluded_frame", "%u, its point %u", got[s.at[i]], want[i]);
+        got[s.at[i]] = 0;
     }
-    if (occluded[count] != 9 || statistics[0].invalid_rays != statistics[1].invalid_rays)
-        driver_fail(run, NULL, "cgt_occluded_points", "one too many, or %llu invalid, of its rays %llu",
-                    (unsigned long long)statistics[0].invalid_rays, (unsigned long long)statistics[1].invalid_rays);
-    driver_check_statistics(run, &statistics[0], count, hits);
+    for (uint32_t i = 0; i < s.frame.row_stride * w->height; i++)
+        if (got[i] != (i % s.frame.row_stride < w->width ? 0 : 9))
+            driver_fail(run, NULL, "cgt_occluded_frame", "%u where no hit is", got[i]);
+    if (by_frame.rays != s.points || by_frame.hits != by_points.hits || by_frame.invalid_rays != by_points.invalid_rays)
+        driver_fail(run, NULL, "cgt_occluded_frame", "%llu rays, %llu hits, %llu invalid; %u, %llu, %llu by points",
+                    (unsigned long long)by_frame.rays, (unsigned long long)by_frame.hits,
+                    (unsigned long long)by_frame.invalid_rays, (unsigned)s.points, (unsigned long long)by_points.hits,
+                    (unsigned long long)by_points.invalid_rays);
+    run->count[COUNT_INVALID] += by_frame.invalid_rays;
+    run->count[COUNT_ANSWERS] += w->pixels;
 }
 
 /* ---- ambient occlusion ---- */
@@ -233,7 +254,8 @@ static void find_ambient(driver_run *run, driver_view *w)
                                        .first = random_below(r, 9)};
     cgt_ambient_points_init(w->ambient.first, w->ambient.samples, &points);
     for (uint32_t i = 0; i < w->pixels; i++)
-        find_open(run, w, &points, i);
+        if (driver_is_one_of(w->every, i))
+            find_open(run, w, &points, i);
 }
 
 static void check_ambient(driver_run *run, driver_view *w, const cgt_frame *frame)
@@ -243,7 +265,13 @@ static void check_ambient(driver_run *run, driver_view *w, const cgt_frame *fram
                          "cgt_ambient_occlusion"))
         return;
     run->count[COUNT_ANSWERS] += w->pixels;
+    if (!run->setup.number)
+        memcpy(w->first_visibility, visibility, w->pixels * sizeof *visibility);
+    else if (memcmp(w->first_visibility, visibility, w->pixels * sizeof *visibility) != 0)
+        driver_fail(run, NULL, "cgt_ambient_occlusion", "not the bits of the first setup");
     for (uint32_t i = 0; i < w->pixels; i++) {
+        if (!driver_is_one_of(w->every, i))
+            continue;
         const float all = (float)w->ambient.samples, low = (float)w->open[0][i] / all,
                     high = (float)w->open[1][i] / all;
         if (!(visibility[i] >= low && visibility[i] <= high))
@@ -258,7 +286,6 @@ static void check_ambient(driver_run *run, driver_view *w, const cgt_frame *fram
 void driver_shadows_begin(driver_run *run, driver_view *w)
 {
     make_lights(run, w);
-    find_lit(run, w);
     w->has_ambient = random_below(&run->scene.random, 3) == 0;
 }
 
@@ -273,6 +300,8 @@ void driver_shadows_ask(driver_run *run, driver_view *w, const cgt_frame *frame)
 {
     check_shadows(run, w, frame);
     check_shadow_rays(run, w);
+    if (random_below(&run->scene.random, 3) == 0)
+        check_spoilt(run, w);
     if (w->has_ambient)
         check_ambient(run, w, frame);
 }

@@ -22,6 +22,9 @@ typedef struct judge_geometry {
     uint32_t mask;         /* as given: 0 is all bits */
 } judge_geometry;
 
+/* Whether it is made for a camera at the origin that sees 64x64 pixels along z, by 90 degrees or with a height of 2. */
+typedef enum scene_aims { SCENE_AIMS_NOT, SCENE_AIMS_CONE, SCENE_AIMS_PARALLEL } scene_aims;
+
 typedef struct judge_scene {
     const char *family;
     uint32_t number;
@@ -29,7 +32,9 @@ typedef struct judge_scene {
     bool closed;     /* all geometries of triangles are */
     float scale;     /* about its size */
     float middle[3]; /* about where it is */
+    float step;      /* of the lattice that some points are on */
     uint32_t axis;   /* most of it lies in the plane through the origin across that axis; 3: it does not */
+    scene_aims aims;
     uint32_t count, geometries, of_kind[JUDGE_KINDS];
     oracle_primitive primitive[JUDGE_PRIMITIVES]; /* by geometry */
     oracle_bounds bounds[JUDGE_PRIMITIVES / ORACLE_BLOCK];

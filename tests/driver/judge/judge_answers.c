@@ -72,6 +72,16 @@ const char *judge_values(const judge_scene *s, const judge_ray *ray, const judge
     return bound >= 0.25 || sqrt(off) <= bound ? NULL : "the normal is too far off";
 }
 
+/* Of FAST; where the bound of a normal says nothing, it may be anything. */
+static const char *judge_numbers(const judge_scene *s, const judge_ray *ray, const judge_hit *right,
+                                 const judge_answer *answer)
+{
+    const oracle_primitive *const p = &s->primitive[right->index];
+    const float sum = answer->normal[0] + answer->normal[1] + answer->normal[2] + answer->uv[0] + answer->uv[1];
+    const bool any = p->kind != ORACLE_TRIANGLE && bound_of_normal(ray, p) >= 0.25;
+    return any || isfinite(sum) ? NULL : "a value is no number";
+}
+
 static bool is_empty(const judge_answer *a)
 {
     return a->t == INFINITY && a->geometry == ORACLE_NONE && a->normal[0] == 0 && a->normal[1] == 0 &&
@@ -89,7 +99,7 @@ const char *judge_nearest(const judge_scene *s, const judge_pool *pool, const ju
     /* a sphere's near surface may be in doubt, and the far one meant */
     while ((k = judge_next(s, pool, truth, &at, answer->geometry, answer->primitive, -1, fast ? NAN : answer->t)) >=
            0) {
-        wrong = fast ? NULL : judge_values(s, ray, &pool->hit[k], answer);
+        wrong = fast ? judge_numbers(s, ray, &pool->hit[k], answer) : judge_values(s, ray, &pool->hit[k], answer);
         if (!wrong || !pool->hit[k].doubtful)
             break;
     }

@@ -171,6 +171,21 @@ static void make_line(judge_scene *s, truth_ray *line)
         line->dir[random_below(r, 3)] = INFINITY;
 }
 
+void garbage_lines(judge_scene *s, judge_ray *ray, uint32_t count)
+{
+    test_random *const r = &s->random;
+    for (uint32_t i = 0; i < count; i++) {
+        truth_ray *const line = &ray[i].line;
+        make_line(s, line);
+        for (int a = 0; a < 3 && i % 3; a++) {
+            line->org[a] = random_below(r, 2) ? random_any_float(r) : line->org[a];
+            line->dir[a] = random_below(r, 2) ? random_any_float(r) : line->dir[a];
+        }
+        line->t_min = i % 3 && random_below(r, 4) == 0 ? random_any_float(r) : line->t_min;
+        line->t_max = i % 3 && random_below(r, 4) == 0 ? random_any_float(r) : line->t_max;
+    }
+}
+
 void any_lines(judge_scene *s, judge_ray *ray, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++)

@@ -32,6 +32,12 @@ static void from_anywhere(judge_scene *s, float org[3])
         org[a] = s->middle[a] + s->scale * random_float(&s->random, -1, 1);
 }
 
+void through_lines(judge_scene *s, judge_ray *ray, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        ray[i].line = through_scene(s);
+}
+
 /* ---- slabs and ranges ---- */
 
 /* At a surface or a corner, with components that are nearly zero. */

@@ -63,6 +63,22 @@ static void overlapping(scene_heap *h, uint32_t i, float reach, float sphere[4],
     sphere[3] = reach * real(h, 0.4f, 1.2f);
 }
 
+/* A sphere and a triangle above it in each column of a lattice: what a ray meets depends on what it skips. */
+static void columns(scene_heap *h, uint32_t i, float reach, float sphere[4], float triangle[9])
+{
+    enum { SIDE = 96 };
+    static const float corner[3][2] = {{-0.25f, -0.25f}, {0.25f, -0.25f}, {0, 0.25f}};
+    const float place[2] = {(float)(i % SIDE) - SIDE / 2, (float)(i / SIDE) - SIDE / 2};
+    (void)reach;
+    for (int k = 0; k < 9; k++)
+        triangle[k] = k % 3 < 2 ? place[k % 3] + corner[k / 3][k % 3] : 2;
+    sphere[0] = place[0];
+    sphere[1] = place[1];
+    sphere[2] = 0;
+    sphere[3] = 0.25f;
+    h->scene->scale = SIDE / 2;
+}
+
 enum { SPHERES = 1, TRIANGLES = 2, CAPSULES = 4, ANY = 0 };
 
 static const struct {
@@ -80,8 +96,9 @@ static const struct {
               {"overlapping", CLOUD_UNIFORM, overlapping, SPHERES},
               {"flat", CLOUD_UNIFORM, flat, ANY},
               {"dense", CLOUD_UNIFORM, dense, ANY},
-              {"specks", CLOUD_UNIFORM, specks, SPHERES}};
-enum { CLOUDS = 8, FLAT = CLOUDS, DENSE, SPECKS };
+              {"specks", CLOUD_UNIFORM, specks, SPHERES},
+              {"columns", CLOUD_UNIFORM, columns, SPHERES | TRIANGLES}};
+enum { CLOUDS = 8, FLAT = CLOUDS, DENSE, SPECKS, COLUMNS };
 
 static const char *name_of_cloud(uint32_t family) { return clouds[family].name; }
 
@@ -134,9 +151,11 @@ const scene_group cloud_scenes = {CLOUDS, name_of_cloud, make_cloud};
     static const char *name_##group(uint32_t family) { return name_of_cloud(number + family); }                        \
     static void make_##group(scene_heap *h, uint32_t family) { make_cloud(h, number + family); }                       \
     const scene_group group = {1, name_##group, make_##group}
+GROUP(even_scenes, CLOUD_UNIFORM);
 GROUP(flat_scenes, FLAT);
 GROUP(dense_scenes, DENSE);
 GROUP(speck_scenes, SPECKS);
+GROUP(column_scenes, COLUMNS);
 
 /* ---- soups ---- */
 

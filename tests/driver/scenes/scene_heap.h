@@ -12,6 +12,7 @@ typedef struct scene_heap {
     test_random *r;
     uint32_t n; /* a number of primitives for the family */
     uint32_t count[JUDGE_KINDS];
+    uint32_t seam; /* so many triangles are closed by themselves, and the others are; 0: not known */
     float data[JUDGE_KINDS][JUDGE_PRIMITIVES / 2][9];
 } scene_heap;
 
@@ -27,12 +28,18 @@ typedef struct scene_group {
 extern const scene_group hard_scenes; /* of capsules above all, and of closed bodies */
 extern const scene_group kind_scenes; /* of all sorts, each spoilt in one way */
 extern const scene_group cloud_scenes, soup_scenes, mesh_scenes, band_scenes;
-extern const scene_group capsule_scenes; /* a few, for rays at their seams and silhouettes */
-extern const scene_group long_scenes;    /* that rays hit more often than a list holds */
-extern const scene_group case_scenes;    /* the hard cases by name, for rays of their own */
-extern const scene_group sheet_scenes;   /* neighbours in order: clusters */
-extern const scene_group large_scenes;   /* thousands of primitives: builders use several tasks */
+extern const scene_group odd_scenes;      /* long, thin, huge, far apart, equal ones at any scale */
+extern const scene_group view_scenes;     /* hard for tiles of frames */
+extern const scene_group afar_scenes;     /* tiny ones, for rays of their own */
+extern const scene_group crossing_scenes; /* closed meshes on lattices, for rays of their own */
+extern const scene_group capsule_scenes;  /* a few, for rays at their seams and silhouettes */
+extern const scene_group long_scenes;     /* that rays hit more often than a list holds */
+extern const scene_group case_scenes;     /* the hard cases by name, for rays of their own */
+extern const scene_group sheet_scenes;    /* neighbours in order: clusters */
+extern const scene_group large_scenes;    /* thousands of primitives: builders use several tasks */
+extern const scene_group even_scenes;     /* in which single precision decides well */
 extern const scene_group flat_scenes, dense_scenes, speck_scenes; /* for rays in planes, to lamps, through points */
+extern const scene_group column_scenes;                           /* for points that skip what is above them */
 
 #define SCENE_GROUPS 4
 

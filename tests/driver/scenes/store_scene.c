@@ -65,14 +65,23 @@ static void add_geometry(scene_heap *h, oracle_kind kind, uint32_t from, uint32_
     s->geometries++;
 }
 
-/* The sorts in any order, some cut in two, which an open mesh alone may be. */
+/* How many of `all` go to a geometry of their own: of closed meshes all, or up to the seam between two. */
+static uint32_t cut_at(const scene_heap *h, oracle_kind kind, uint32_t all)
+{
+    const bool closed = h->scene->closed && kind == ORACLE_TRIANGLE;
+    if (random_below(h->r, 4) && !(closed && h->seam && random_below(h->r, 2)))
+        return all;
+    return !closed ? all / 2 : h->seam && h->seam < all ? h->seam : all;
+}
+
+/* The sorts in any order, some cut in two. */
 static void make_geometries(scene_heap *h)
 {
     const uint32_t first = random_below(h->r, JUDGE_KINDS);
     for (uint32_t k = 0; k < JUDGE_KINDS; k++) {
         const oracle_kind kind = (oracle_kind)((first + k) % JUDGE_KINDS);
         const uint32_t room = JUDGE_PRIMITIVES - h->scene->count, all = h->count[kind] < room ? h->count[kind] : room,
-                       cut = random_below(h->r, 4) || (h->scene->closed && kind == ORACLE_TRIANGLE) ? all : all / 2;
+                       cut = cut_at(h, kind, all);
         if (random_below(h->r, 6) == 0)
             add_geometry(h, kind, 0, 0); /* an id without a primitive */
         if (cut)
@@ -128,7 +137,7 @@ void scene_make(judge_scene *s, test_random random, const scene_group *const *gr
     s->random = random;
     s->number = number;
     s->family = group->name(family);
-    s->scale = 1;
+    s->scale = s->step = 1;
     s->axis = 3;
     h.scene = s;
     h.r = &s->random;
