@@ -190,7 +190,7 @@ static bool is_surface(const judge_ray *ray, const oracle_primitive *p, const me
         return off <= 0x1p-30 && s->front == (along < 0);
     const double r = radius_of(p);
     return off <= 0x1p-28 + 0x1p-48 * m->away / r && place <= 0x1p-48 * m->away * (r / m->half + 1) &&
-           (m->is_tied || s->front == (m->at == 0));
+           s->front == (m->at == 0);
 }
 
 /* Where the new ray leaves the sphere or the capsule that it is in: INFINITY where it is in none. */
@@ -219,10 +219,11 @@ static void judge_bounce(driver_run *run, const wave *w, uint32_t i)
         return;
     }
     const oracle_primitive *const p = primitive_of(&run->scene, hit->geometry, hit->primitive);
-    const meeting m = meet(p, &ray->line, is_own(ray, hit) ? INFINITY : hit->t);
+    meeting m = meet(p, &ray->line, is_own(ray, hit) ? INFINITY : hit->t);
     const bool inside = chosen == MIRROR ? !s->front : s->front;
     if (!m.count || !m.is_well)
         return;
+    m.at = m.is_tied ? !s->front : m.at; /* either is right */
     run->count[COUNT_BOUNCES]++;
     if (!is_surface(ray, p, &m, s))
         wrong = "the surface is another one";
@@ -230,7 +231,7 @@ static void judge_bounce(driver_run *run, const wave *w, uint32_t i)
         wrong = "it does not go on";
     else if (!off && (n->skip_primitive != hit->primitive || n->skip_geometry != hit->geometry))
         wrong = "it does not skip what it leaves";
-    else if (!off && !m.is_tied && !is_direction(ray, &m, n->line.dir))
+    else if (!off && !is_direction(ray, &m, n->line.dir))
         wrong = "it goes elsewhere";
     else if (!off && !is_far_side(p, n, inside))
         wrong = "it does not end at the far side";
