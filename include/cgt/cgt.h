@@ -396,7 +396,7 @@ typedef enum cgt_field {
  *          lowest primitive id.
  *   Bits   are the same for any variant, structure and number of threads, in both.
  *   EXACT  Every value is within 1 ulp: t within 0.51, a triangle's normal in each component, a sphere's and a
- *          capsule's as a vector (2^-23 + 2^-48 c / r).
+ *          capsule's as a vector (2^-23 + 2^-48 c / r; where that is above 1, it may have any length).
  *   FAST   Single precision. With |d| the length of the ray's direction, c the distance to a sphere's centre, r its
  *          radius, h half the chord, R the distance to a triangle's farthest vertex, errors are at most
  *            |d| t   sphere    2^-19 c r / h; at a silhouette 2^-9 sqrt(c r)
