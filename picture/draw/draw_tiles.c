@@ -161,6 +161,20 @@ static void set_closest(const drawing *d, const cgt_tile *tile, size_t offset, c
         }
 }
 
+/* Asks for the colours of hits, which lie anywhere in memory, before their brightness is computed. */
+static inline void prefetch_colors(const drawing *d, const cgt_tile *tile, size_t offset, uint32_t count)
+{
+    for (size_t k = offset; k < offset + count; k++) {
+        if (tile->primitive[k] == CGT_INVALID_ID)
+            continue;
+        const cgt_look *const l = &look_at(d, tile, k)->of;
+        if (l->index && !l->per_vertex)
+            __builtin_prefetch(l->index + tile->primitive[k]);
+        else if (l->colors && !l->per_vertex)
+            __builtin_prefetch(l->colors + 3 * (size_t)tile->primitive[k]);
+    }
+}
+
 /* One run of a row of pixels: `count` hits wide and `samples` hits high, from element (i, j) of the tile. */
 static uint32_t shade_run(const drawing *d, const cgt_tile *tile, uint32_t i, uint32_t j, uint32_t count)
 {
@@ -177,6 +191,7 @@ static uint32_t shade_run(const drawing *d, const cgt_tile *tile, uint32_t i, ui
         const run_rays rays = rays_from(d, tile->x + i, tile->y + j + row);
         const float *const sphere[3] = {tile->normal[0] + offset, tile->normal[1] + offset, tile->normal[2] + offset};
         const float *const triangle[3] = {shading[0], shading[1], shading[2]};
+        prefetch_colors(d, tile, offset, count);
         if (d->has_triangles)
             triangle_normals(d, tile, offset, count, &rays, shading);
         brightness(d, &rays, count, d->has_triangles ? triangle : sphere, bright);
