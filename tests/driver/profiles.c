@@ -225,8 +225,8 @@ const driver_profile driver_profiles[] = {
      .ways = WAY_CHOSEN | WAY_TILES,
      .loads = 3,
      .shows = {{COUNT_SEEN, COUNT_PIXELS, 0.1}, {COUNT_OCCLUDED, COUNT_SHADOWS, 0.2}, {COUNT_TILES, COUNT_LOADS, 4}}},
-    /* thousands of points against lights, in the order of a surface and in any, in crowds that are large enough for tiles
-     * of a light */
+    /* thousands of points against lights, in the order of a surface and in any, in crowds that are large enough for
+     * tiles of a light */
     {.name = "lights",
      .scenes = 56,
      .groups = {&column_scenes, &cloud_scenes, &column_scenes, &column_scenes},

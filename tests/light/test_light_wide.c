@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Shadow rays in scenes with one primitive far away, or one that is huge: the others are culled as without it. Work is
- * compared with that of the same scene without such a primitive, and results with those of cgt_occluded_rays. No profile
- * of tests/driver: it bounds work, not hits. */
+ * compared with that of the same scene without such a primitive, and results with those of cgt_occluded_rays. No
+ * profile of tests/driver: it bounds work, not hits. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

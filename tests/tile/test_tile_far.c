@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Things on a floor that is far larger than they are: single precision decides as much of a frame by tiles as on a small
- * floor, since the depth error of a tile follows usual distances. No profile of tests/driver, whose `tiles` judges what
- * such frames show: this bounds what they take. */
+ * Things on a floor that is far larger than they are: single precision decides as much of a frame by tiles as on a
+ * small floor, since the depth error of a tile follows usual distances. No profile of tests/driver, whose `tiles`
+ * judges what such frames show: this bounds what they take. */
 #include "support/scenes.h"
 #include "support/suite.h"
 

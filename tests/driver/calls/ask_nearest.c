@@ -246,8 +246,8 @@ static void count_fast(driver_run *run, uint32_t i, const full_hit *h)
     run->count[COUNT_FAST_OFF] += fmax(way / (double)run->scene.scale, fmax(uv, normal)) > 1e-3;
 }
 
-/* Whether a ray from well inside a closed mesh leaves it at an edge: the watertight test of single precision may leak beside
- * vertices alone, where more than two triangles meet. */
+/* Whether a ray from well inside a closed mesh leaves it at an edge: the watertight test of single precision may leak
+ * beside vertices alone, where more than two triangles meet. */
 static bool leaks_at_edge(driver_run *run, uint32_t i, const full_hit *h)
 {
     const judge_truth *const right = &run->right[i];

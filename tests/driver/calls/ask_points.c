@@ -125,8 +125,8 @@ void driver_points_begin(driver_run *run, driver_view *w)
 
 /* ---- what they skip ---- */
 
-/* Points skip what they meet, or their neighbours do; or a primitive of the geometry before, or a number that would be it
- * behind the last one of that. */
+/* Points skip what they meet, or their neighbours do; or a primitive of the geometry before, or a number that would be
+ * it behind the last one of that. */
 static void skip_hit(driver_run *run, judge_ray *ray, const full_hit *hit, uint32_t way)
 {
     ray->skip_primitive = CGT_INVALID_ID;

@@ -124,7 +124,8 @@ static void check_shadow_rays(driver_run *run, driver_view *w)
 
 /* ---- places that are none ---- */
 
-/* A frame's t, some of which leads to no place or beyond all numbers, in planes with gaps; and the points of its hits. */
+/* A frame's t, some of which leads to no place or beyond all numbers, in planes with gaps; and the points of its
+ * hits. */
 typedef struct spoilt_frame {
     cgt_frame frame;
     bool skips;

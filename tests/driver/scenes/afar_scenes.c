@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Tiny spheres or triangles near a place that the foot of a ray from afar is near, too, and where floats are coarse: the
- * origin, moved there, is off by more than leaves allow for at that distance. */
+ * Tiny spheres or triangles near a place that the foot of a ray from afar is near, too, and where floats are coarse:
+ * the origin, moved there, is off by more than leaves allow for at that distance. */
 #include <math.h>
 #include <string.h>
 

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Closed meshes on lattices of whole numbers, with rays aimed exactly at their edges and vertices
- * (all_hits/crossing_cases.h), and spheres on that lattice; a second mesh, with rays of its own, may be a geometry of its
- * own. */
+ * (all_hits/crossing_cases.h), and spheres on that lattice; a second mesh, with rays of its own, may be a geometry of
+ * its own. */
 #include <math.h>
 #include <string.h>
 

@@ -201,8 +201,8 @@ static void strip(kind_scene *s, uint32_t i, float sphere[4], float (*vertex)[3]
 }
 
 /* Seen along z, both edges run in nearly the same direction, and the first vertex has more digits than the others: the
- * normal's z is 2^-46 of the products whose difference it is, which double rounds at 2^-53. Every fourth triangle has a z
- * of that vertex alone, which edges in double lose; others have exact edges with rounded products. */
+ * normal's z is 2^-46 of the products whose difference it is, which double rounds at 2^-53. Every fourth triangle has a
+ * z of that vertex alone, which edges in double lose; others have exact edges with rounded products. */
 static void cancelling(kind_scene *s, uint32_t i, float sphere[4], float (*vertex)[3])
 {
     const bool lost = i % 4 == 0;
