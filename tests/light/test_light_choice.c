@@ -15,12 +15,6 @@ static bool is_slow(void) { return test_scaled(10) < 2; }
 
 static bool way_is(const lit_scene *s, const char *text) { return strstr(s->research.light_way, text) != NULL; }
 
-/* What takes too much is counted in tests of 16 rays: with narrower vectors these scenes may never give up tiles. */
-static bool has_16_lanes(const cgt_context *context)
-{
-    return strcmp(cgt_context_get_variant(context), "avx512") == 0;
-}
-
 TEST(scattered_points_take_no_more_than_a_tree)
 {
     static lit_scene s;
@@ -57,7 +51,7 @@ TEST(scattered_points_take_no_more_than_a_tree)
         assert_true(second <= fmin(by_tree, by_tiles) + 4); /* a fifth of the points ask tiles, for twice the tree */
         cgt_scene_release(scene);
     }
-    assert_true(handed_over || !has_16_lanes(context));
+    assert_true(handed_over || !lit_has_16_lanes(context));
     cgt_scene_release(tiles);
     cgt_scene_release(truth);
     lit_scene_free(&s);
@@ -84,7 +78,7 @@ TEST(frames_that_are_alike_take_the_same_work)
     bool was_grid = false;
     cgt_camera camera;
     cgt_context *context = context_make(1, NULL);
-    if (!has_16_lanes(context)) {
+    if (!lit_has_16_lanes(context)) {
         cgt_context_release(context);
         skip();
     }
