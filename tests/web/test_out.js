@@ -125,7 +125,7 @@ async function testLines(page, folder) {
         for (const [name, values] of texts)
             await put(page, name, values);
         await check(caffeine);
-        for (const [name] of texts)
+        for (const [name] of texts.reverse())
             await put(page, name, '');
         const run = [["it's a run.lammpstrj", read('pour2k.lammpstrj')]];
         await drop(page, ...run.flat());
