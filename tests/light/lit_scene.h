@@ -114,7 +114,7 @@ static inline double lit_trace(const cgt_scene *scene, const cgt_light *light, l
            count;
 }
 
-/* What takes too much is counted in tests of 16 rays: with narrower vectors scenes that give up tiles may never do so. */
+/* What takes too much is counted in tests of 16 rays: with narrower vectors scenes that give up tiles may not. */
 static inline bool lit_has_16_lanes(const cgt_context *context)
 {
     return strcmp(cgt_context_get_variant(context), "avx512") == 0;
