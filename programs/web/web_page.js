@@ -214,7 +214,8 @@
         });
         if (font.ok) { // else options that write texts are refused
             cgt.FS.mkdirTree('/usr/share/fonts/dejavu');
-            cgt.FS.writeFile('/usr/share/fonts/dejavu/DejaVuSans.ttf', new Uint8Array(await unpack(await font.arrayBuffer())));
+            cgt.FS.writeFile('/usr/share/fonts/dejavu/DejaVuSans.ttf',
+                             new Uint8Array(await unpack(await font.arrayBuffer())));
         }
         cgt.FS.mkdir('/files'); // of the user, and nothing else
         cgt.FS.chdir('/files');
