@@ -207,15 +207,17 @@ if command -v ffmpeg >/dev/null; then
 fi
 [ -z "$(ls "$TMPDIR")" ] || fail "temporary files stay: $(ls "$TMPDIR")"
 unset TMPDIR
-if command -v python3 >/dev/null && "$program" --help | grep -q 'o opens a panel'; then
-    view 0 -s 900x300 --style plain -a 1 --type-color 1=red --type-color '2=blue' --title 'It'"'"'s "so" \' --bonds \
-        "$data/caffeine.xyz" <<'END'
+view_python() { # of the panel's button; printed, too
+    view 0 -s 900x300 --style plain -a 1 "$@" <<'END'
 settle
 key o
 wait 0.2
 click 780 43
 wait 0.2
 END
+}
+if command -v python3 >/dev/null && "$program" --help | grep -q 'o opens a panel'; then
+    view_python --type-color 1=red --type-color '2=blue' --title 'It'"'"'s "so" \' --bonds "$data/caffeine.xyz"
     cp "$tmp/stdout" "$tmp/lines.py"
     python3 -m py_compile "$tmp/lines.py" 2>"$tmp/python.log" || fail "Python's lines: $(cat "$tmp/lines.py" "$tmp/python.log")"
     for line in '    type_color=["1=red", "2=blue"],' '    title="It'"'"'s \"so\" \\",' '    bonds=True,'; do
@@ -224,13 +226,7 @@ END
     [ "$(grep -c '^    type_color=' "$tmp/lines.py")" = 1 ] || fail "a keyword comes twice: $(cat "$tmp/lines.py")"
     # The frame before, for speeds; a mesh, with the origin of the run.
     printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$tmp/-wall.obj"
-    (cd "$tmp" && view 0 --first=5 -s 900x300 --style plain -a 1 --mesh ./-wall.obj --origin=1,2,3 --color speed "$pour") <<'END'
-settle
-key o
-wait 0.2
-click 780 43
-wait 0.2
-END
+    (cd "$tmp" && view_python --first=5 --mesh ./-wall.obj --origin=1,2,3 --color speed "$pour")
     grep -qxF 'for frame in run[4:6]:' "$tmp/stdout" || fail "Python's lines: $(cat "$tmp/stdout")"
     grep -qxF 'figure.set_mesh(cgt.read("./-wall.obj", origin=(1, 2, 3))[0])' "$tmp/stdout" ||
         fail "Python's lines: $(cat "$tmp/stdout")"
