@@ -173,10 +173,9 @@ CGT_SPU_INLINE bool lane_test_capsule(const lane_rays *r, const vfloat p[3], con
     return lane_test_capsule_from(r, p, q, radius, false, hits);
 }
 
-/* The lanes whose lines certainly leave their capsules, of those that `within` has them enter for certain, and the
- * interval of where: what enters is likewise tested against the way back. */
-CGT_SPU_INLINE vmask lane_leave_capsule(const lane_rays *r, const vfloat p[3], const vfloat q[3], vfloat radius,
-                                        vmask within, vfloat *low, vfloat *high)
+/* Where lines leave: what enters is likewise tested against the way back. t_min plays no part. */
+CGT_SPU_INLINE bool lane_test_capsule_exit(const lane_rays *r, const vfloat p[3], const vfloat q[3], vfloat radius,
+                                           bool moved, lane_hits *hits)
 {
     const vfloat zero = spux_vfloat(0);
     lane_rays back = *r;
@@ -184,10 +183,24 @@ CGT_SPU_INLINE vmask lane_leave_capsule(const lane_rays *r, const vfloat p[3], c
     back.t_min = spux_vfloat(-INFINITY);
     for (int a = 0; a < 3; a++)
         back.dir[a] = spu_sub(zero, r->dir[a]);
-    if (spux_none(within) || !lane_test_capsule_from(&back, p, q, radius, true, &h))
+    if (!lane_test_capsule_from(&back, p, q, radius, moved, &h))
+        return false;
+    *hits = h;
+    hits->low = spu_sub(zero, h.high);
+    hits->high = spu_sub(zero, h.low);
+    return true;
+}
+
+/* The lanes whose lines certainly leave their capsules, of those that `within` has them enter for certain, and the
+ * interval of where. */
+CGT_SPU_INLINE vmask lane_leave_capsule(const lane_rays *r, const vfloat p[3], const vfloat q[3], vfloat radius,
+                                        vmask within, vfloat *low, vfloat *high)
+{
+    lane_hits h;
+    if (spux_none(within) || !lane_test_capsule_exit(r, p, q, radius, true, &h))
         return spux_mask_none();
-    *low = spu_sub(zero, h.high);
-    *high = spu_sub(zero, h.low);
+    *low = h.low;
+    *high = h.high;
     return spu_and(within, h.certain_hit);
 }
 

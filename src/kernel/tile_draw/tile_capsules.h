@@ -292,19 +292,12 @@ CGT_SPU_INLINE tile_pixel_test tile_test_depths(const tile *t, vfloat px, vfloat
 /* The same from inside: the near root is before the range, and the ray leaves where the reversed one enters. */
 CGT_SPU_INLINE bool tile_test_from_inside(const lane_rays *r, const tile_capsule *q, lane_hits *h)
 {
-    const vfloat zero = spux_vfloat(0);
-    lane_rays reversed = *r;
-    for (int a = 0; a < 3; a++)
-        reversed.dir[a] = spu_sub(zero, r->dir[a]);
-    reversed.t_min = spux_vfloat(-INFINITY);
-    if (!lane_test_capsule(&reversed, q->p, q->q, q->radius, h))
+    if (!lane_test_capsule_exit(r, q->p, q->q, q->radius, false, h))
         return false;
-    const vfloat low = spu_sub(zero, h->high), high = spu_sub(zero, h->low);
-    const vmask certain = spu_and(h->certain_hit, spu_cmpgt(low, r->t_min));
+    const vmask certain = spu_and(h->certain_hit, spu_cmpgt(h->low, r->t_min));
     h->undecided = spu_andc(spu_or(h->undecided, h->certain_hit), certain);
     h->certain_hit = certain;
-    h->low = spux_select(zero, low, certain);
-    h->high = high;
+    h->low = spux_select(spux_vfloat(0), h->low, certain);
     return true;
 }
 
