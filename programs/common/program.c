@@ -21,6 +21,8 @@ static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* of all below, and of
 static int bar_is_shown;                                 /* on the terminal's current line */
 static program_error_sink *error_sink;
 static void *error_user;
+static program_progress_sink *progress_sink;
+static void *progress_user;
 
 /* ---- Start, errors, end ------------------------------------------------------------------------------------- */
 
@@ -87,7 +89,7 @@ int program_exit(int code)
 /* ---- Progress ----------------------------------------------------------------------------------------------- */
 
 #define BAR_WIDTH 30
-#define BAR_EVERY 0.1  /* seconds between two bars on a terminal */
+#define BAR_EVERY 0.1  /* seconds between two bars on a terminal, or two lines to a sink */
 #define LINE_EVERY 5.0 /* seconds between two lines elsewhere */
 
 double program_seconds(void)
@@ -97,6 +99,14 @@ double program_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+void program_set_progress_sink(program_progress_sink *sink, void *user)
+{
+    pthread_mutex_lock(&lock);
+    progress_sink = sink;
+    progress_user = user;
+    pthread_mutex_unlock(&lock);
+}
+
 void program_progress_start(program_progress *p, const char *activity, const char *unit, double total, int quiet)
 {
     p->activity = activity;
@@ -104,7 +114,11 @@ void program_progress_start(program_progress *p, const char *activity, const cha
     p->total = total;
     p->start = p->last = program_seconds();
     p->terminal = isatty(STDERR_FILENO);
-    p->quiet = quiet;
+    pthread_mutex_lock(&lock);
+    p->sink = progress_sink;
+    p->user = progress_user;
+    pthread_mutex_unlock(&lock);
+    p->quiet = quiet && !p->sink;
 }
 
 /* Writes " 01:23 left", with hours where there are any. */
@@ -131,23 +145,31 @@ static void draw_bar(double share)
 void program_progress_update(program_progress *p, double done, double share)
 {
     const double now = program_seconds();
-    if (p->quiet || now - p->last < (p->terminal ? BAR_EVERY : LINE_EVERY))
+    if (p->quiet || now - p->last < (p->terminal || p->sink ? BAR_EVERY : LINE_EVERY))
         return;
     p->last = now;
     const double seconds = now - p->start;
     share = share < 0.0 && p->total > 0.0 ? done / p->total : share;
     share = share > 1.0 ? 1.0 : share;
-    char remaining[40] = "";
+    char remaining[40] = "", part[16] = "", text[256];
     if (share > 0.0)
         write_remaining_time(remaining, sizeof remaining, seconds * (1.0 - share) / share);
+    if (share >= 0.0)
+        snprintf(part, sizeof part, "%3.0f %%, ", 100.0 * share);
+    snprintf(text, sizeof text, "%s%.0f %s, %.1f/s%s", part, done, p->unit, seconds > 0.0 ? done / seconds : 0.0,
+             remaining);
+    if (p->sink) {
+        char line[300];
+        snprintf(line, sizeof line, "%s %s", p->activity, text);
+        p->sink(p->user, line);
+        return;
+    }
     pthread_mutex_lock(&lock);
     clear_bar();
     fprintf(stderr, "%s ", p->activity);
     if (p->terminal && share >= 0.0)
         draw_bar(share);
-    if (share >= 0.0)
-        fprintf(stderr, "%3.0f %%, ", 100.0 * share);
-    fprintf(stderr, "%.0f %s, %.1f/s%s", done, p->unit, seconds > 0.0 ? done / seconds : 0.0, remaining);
+    fputs(text, stderr);
     if (p->terminal) {
         fflush(stderr);
         bar_is_shown = 1;
@@ -159,7 +181,9 @@ void program_progress_update(program_progress *p, double done, double share)
 
 void program_progress_end(program_progress *p)
 {
-    if (!p->quiet) {
+    if (p->sink) {
+        p->sink(p->user, "");
+    } else if (!p->quiet) {
         pthread_mutex_lock(&lock);
         clear_bar();
         pthread_mutex_unlock(&lock);

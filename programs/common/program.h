@@ -36,6 +36,11 @@ void program_set_error_sink(program_error_sink *sink, void *user);
  * (a full disk, a closed pipe) and code was PROGRAM_OK. Last call of main. */
 int program_exit(int code);
 
+/* Where progress goes in place of standard error: "reading  34 %, 12 frames, 3.4/s, 00:12 left", about ten times a
+ * second, also where it is quiet; "": it ended. */
+typedef void program_progress_sink(void *user, const char *text);
+void program_set_progress_sink(program_progress_sink *sink, void *user);
+
 /* Progress on standard error: one line that is rewritten on a terminal, a plain line about every five seconds
  * elsewhere. Start, then update at any rate (output is limited), then end. */
 typedef struct program_progress {
@@ -46,6 +51,8 @@ typedef struct program_progress {
     double last;          /* seconds, of the last line written */
     int terminal;
     int quiet; /* writes nothing */
+    program_progress_sink *sink;
+    void *user;
 } program_progress;
 
 void program_progress_start(program_progress *p, const char *activity, const char *unit, double total, int quiet);

@@ -120,22 +120,26 @@ static int survey_input(view_draw *d)
     return -1;
 }
 
-view_draw *view_draw_open(const view_options *options)
+view_draw *view_draw_create(const view_options *options)
 {
     view_draw *const d = calloc(1, sizeof *d);
-    uint64_t lead;
-    if (!d) {
+    if (d)
+        d->options = options->render;
+    else
         program_error("out of memory");
-        return NULL;
-    }
-    d->options = options->render;
-    if (render_create_context(&d->options, &d->context) == 0 && cgt_figure_create(d->context, &d->figure) == CGT_OK &&
-        view_draw_tell(d, figure_run_set(d->figure, d->options.settings)) == 0 && open_input(d) == 0 &&
-        survey_input(d) == 0 && view_draw_tell(d, cgt_figure_begin_keep(d->figure, &lead)) == 0 &&
-        (d->shows = view_draw_get(d, cgt_figure_get, "show")) != NULL)
-        return d;
-    view_draw_close(d);
-    return NULL;
+    return d;
+}
+
+int view_draw_open(view_draw *d)
+{
+    uint64_t lead;
+    return render_create_context(&d->options, &d->context) == 0 &&
+                   cgt_figure_create(d->context, &d->figure) == CGT_OK &&
+                   view_draw_tell(d, figure_run_set(d->figure, d->options.settings)) == 0 && open_input(d) == 0 &&
+                   survey_input(d) == 0 && view_draw_tell(d, cgt_figure_begin_keep(d->figure, &lead)) == 0 &&
+                   (d->shows = view_draw_get(d, cgt_figure_get, "show")) != NULL
+               ? 0
+               : -1;
 }
 
 void view_draw_stop(view_draw *d)

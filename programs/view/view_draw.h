@@ -27,10 +27,13 @@ typedef struct view_draw {
     stop_flag stop;
 } view_draw;
 
-/* Opens the input, and finds colours and camera. Takes options->render over. Returns NULL with the message printed. */
-view_draw *view_draw_open(const view_options *options);
+/* Takes options->render over. Returns NULL with the message printed. */
+view_draw *view_draw_create(const view_options *options);
 
-/* Ends a read that waits for more of a run; then, after the frames, all. NULL is ignored. */
+/* Opens the input, and finds colours and camera; in any thread. */
+int view_draw_open(view_draw *d);
+
+/* Ends the opening, and a read that waits for more of a run; then, after both and the frames, all. NULL is ignored. */
 void view_draw_stop(view_draw *d);
 void view_draw_close(view_draw *d);
 

@@ -13,8 +13,6 @@
 #include <string.h>
 #include <time.h>
 
-#include "view/view_recent.h"
-
 /* ---- Messages ----------------------------------------------------------------------------------------------- */
 
 static void add_message(viewer *v, const char *text)
@@ -48,8 +46,16 @@ static int on_error(void *user, const char *text)
 {
     viewer *const v = user;
     add_message(v, text);
-    v->wake(v->user);
+    v->wake(v->user, 0);
     return 0;
+}
+
+static void on_progress(void *user, const char *text)
+{
+    viewer *const v = user;
+    pthread_mutex_lock(&v->lock);
+    snprintf(v->progress, sizeof v->progress, "%s", text);
+    pthread_mutex_unlock(&v->lock);
 }
 
 /* Messages stay for some seconds; those about a file that cannot be opened for ever. */
@@ -77,10 +83,10 @@ void viewer_on_frames(void *user)
     pthread_mutex_lock(&v->lock);
     v->is_woken = 1;
     pthread_mutex_unlock(&v->lock);
-    v->wake(v->user);
+    v->wake(v->user, 0);
 }
 
-viewer *viewer_create(const view_options *options, void (*wake)(void *user), void *user)
+viewer *viewer_create(const view_options *options, viewer_wake *wake, void *user)
 {
     viewer *const v = calloc(1, sizeof *v);
     if (!v)
@@ -96,23 +102,8 @@ viewer *viewer_create(const view_options *options, void (*wake)(void *user), voi
     pthread_mutex_init(&v->lock, NULL);
     pthread_mutex_init(&v->picture_lock, NULL);
     program_set_error_sink(on_error, v);
-    v->draw = options->render.input_count ? view_draw_open(options) : NULL;
-    if (v->draw) {
-        cgt_figure_get_camera(v->draw->figure, &v->camera);
-        cgt_figure_get_up(v->draw->figure, v->axis);
-        view_camera_straighten(&v->camera);
-        memcpy(v->pivot, v->camera.target, sizeof v->pivot);
-        viewer_publish(v);
-        v->frames = view_draw_start_frames(v->draw, (size_t)options->render.memory_mib << 20, viewer_on_frames, v);
-    }
-    if (v->frames)
-        view_recent_add(options->render.input);
-    if (v->draw && !v->frames) {
-        view_draw_close(v->draw);
-        v->draw = NULL;
-    }
-    if (!v->draw && options->render.input_count)
-        v->options.render.settings = NULL; /* what opens took them over */
+    program_set_progress_sink(on_progress, v);
+    v->opens = options->render.input_count > 0;
     if (viewer_picture_resize(v, options->render.figure.width, options->render.figure.height, 1.0f)) {
         viewer_free(v);
         return NULL;
@@ -139,6 +130,7 @@ void viewer_free(viewer *v)
     viewer_forget_settings(v);
     view_draw_close(v->draw);
     program_set_error_sink(NULL, NULL);
+    program_set_progress_sink(NULL, NULL);
     viewer_free_options(v);
     viewer_free_selection(v);
     viewer_free_opened(&v->opened);
@@ -181,7 +173,7 @@ void viewer_send(viewer *v, const view_event *event)
     v->sent = v->sent > 0.0 ? v->sent : program_seconds();
     v->stop = 1;
     pthread_mutex_unlock(&v->lock);
-    v->wake(v->user);
+    v->wake(v->user, 0);
 }
 
 /* How long events have waited for the picture that is there now. */
@@ -273,6 +265,9 @@ double viewer_step(viewer *v, double now)
 {
     double wait = INFINITY;
     v->now = now;
+    if (v->opens)
+        viewer_open_first(v);
+    v->opens = 0;
     const double sent = take_events(v);
     if (v->frames && !v->wants_end && !v->closing) {
         play(v);
@@ -296,7 +291,7 @@ double viewer_step(viewer *v, double now)
 }
 
 int viewer_wants_end(const viewer *v) { return v->wants_end; }
-int viewer_has_failed(const viewer *v) { return !v->draw && v->options.render.input_count; }
+int viewer_has_failed(const viewer *v) { return !v->draw && !v->opens && v->options.render.input_count; }
 
 /* ---- Asking ------------------------------------------------------------------------------------------------- */
 

@@ -64,9 +64,12 @@ typedef enum view_panel_state { VIEW_PANEL_ABSENT = 0, VIEW_PANEL_CLOSED, VIEW_P
 typedef struct viewer viewer;
 struct view_options; /* view_options.h */
 
-/* wake: viewer_step has something to do, or a picture is there; any thread calls it. Opens the input: where that fails
- * the viewer shows why, where there is none how to name one. NULL: no memory. */
-viewer *viewer_create(const struct view_options *options, void (*wake)(void *user), void *user);
+/* viewer_step has something to do, or has_picture: it goes on, and has one to show meanwhile; any thread calls it. */
+typedef void viewer_wake(void *user, int has_picture);
+
+/* The first step opens the input: where that fails the viewer shows why, where there is none how to name one. NULL: no
+ * memory. */
+viewer *viewer_create(const struct view_options *options, viewer_wake *wake, void *user);
 void viewer_free(viewer *v);
 
 /* Any thread. */
@@ -76,7 +79,8 @@ void viewer_send(viewer *v, const view_event *event);
 void viewer_stop(viewer *v);
 
 /* Does what is due at `now` (seconds): takes events, draws one picture. Returns in how many seconds it is to be called
- * again where no event comes before: 0 at once, +infinity not before that. */
+ * again where no event comes before: 0 at once, +infinity not before that. While files are opened it tells by pictures
+ * how far that is, and Escape ends it. */
 double viewer_step(viewer *v, double now);
 
 /* Whether the user asked to end. */

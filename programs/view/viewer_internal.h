@@ -77,8 +77,9 @@ typedef enum view_drag { DRAG_NONE = 0, DRAG_TURN, DRAG_PAN, DRAG_BAR } view_dra
 
 struct viewer {
     view_options options;
-    void (*wake)(void *user);
+    viewer_wake *wake;
     void *user;
+    int opens;       /* the first step opens the input */
     view_draw *draw; /* NULL: the input could not be opened, or there is none */
     view_opened opened;
     view_frames *frames;
@@ -123,6 +124,7 @@ struct viewer {
     text_font *font;
     uint8_t *over; /* the picture with it */
     int changed;   /* to be composed anew */
+    int is_opening;
     int help, list, list_at;
     char list_names[VIEW_LIST_MOST][64];
     uint32_t list_count;
@@ -145,6 +147,7 @@ struct viewer {
     int is_woken; /* frames have arrived, or messages */
     view_message message[VIEW_MESSAGES];
     uint32_t messages;
+    char progress[128]; /* of what takes long; "": nothing does */
     view_option option[OPTIONS_MOST];
     char *columns;
     char *formula;   /* of the selection, where it was made from what was picked; NULL: nothing new */
@@ -213,6 +216,7 @@ void viewer_follow_selection(viewer *v); /* after a new frame */
 void viewer_free_selection(viewer *v);
 
 /* viewer_open.c: what fails leaves all as it is, with the message printed. Paths are lines. */
+void viewer_open_first(viewer *v); /* what the command line names */
 void viewer_open(viewer *v, const char *paths);
 void viewer_read_anew(viewer *v);
 int viewer_read_by(viewer *v, const char *name, const char *values); /* other values of an option: 0 or -1 */

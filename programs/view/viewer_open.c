@@ -7,9 +7,11 @@
 #include "view/viewer_internal.h"
 
 #include <inttypes.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "common/settings_file.h"
@@ -44,6 +46,94 @@ static void print_own(FILE *to, const viewer *v, int is_same)
         settings_print_part(to, lines, 0);
     else if (lines)
         print_lines(to, lines, of_writing, 0);
+}
+
+/* ---- Waiting ------------------------------------------------------------------------------------------------ */
+
+typedef struct view_opening {
+    view_draw *draw;
+    pthread_mutex_t lock; /* of all below */
+    pthread_cond_t changed;
+    int is_done, failed;
+} view_opening;
+
+static void *open_draw(void *user)
+{
+    view_opening *const o = user;
+    const int failed = view_draw_open(o->draw);
+    pthread_mutex_lock(&o->lock);
+    o->failed = failed;
+    o->is_done = 1;
+    pthread_cond_signal(&o->changed);
+    pthread_mutex_unlock(&o->lock);
+    return NULL;
+}
+
+/* Whether it is done, for a tenth of a second at most. */
+static int wait_for(view_opening *o)
+{
+    const long tenth = 100000000, second = 1000000000;
+    struct timespec end;
+    timespec_get(&end, TIME_UTC);
+    end.tv_sec += (end.tv_nsec + tenth) / second;
+    end.tv_nsec = (end.tv_nsec + tenth) % second;
+    pthread_mutex_lock(&o->lock);
+    while (!o->is_done && pthread_cond_timedwait(&o->changed, &o->lock, &end) == 0) {
+    }
+    const int is_done = o->is_done;
+    pthread_mutex_unlock(&o->lock);
+    return is_done;
+}
+
+/* Whether the opening is to end: by Escape, which is for this alone then, or with the window. */
+static int is_to_end(viewer *v)
+{
+    int ends = v->closing != 0;
+    pthread_mutex_lock(&v->lock);
+    for (size_t i = 0; i < v->event_count; i++) {
+        view_event *const e = &v->events[i];
+        if (e->kind == VIEW_KEY && e->key == VIEW_KEY_ESCAPE) {
+            e->key = 0;
+            ends = 1;
+        }
+        ends |= e->kind == VIEW_KEY && e->key == 'q' && !e->control;
+    }
+    pthread_mutex_unlock(&v->lock);
+    return ends;
+}
+
+/* Opens files in a thread of its own. What is shown stays meanwhile, and tells how far it is. Takes the settings of the
+ * options over. Returns NULL with the message printed. */
+static view_draw *open_and_tell(viewer *v, const view_options *options, int *was_ended)
+{
+    view_opening o = {.lock = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
+    pthread_t thread;
+    *was_ended = 0;
+    o.draw = view_draw_create(options);
+    if (!o.draw) {
+        free(options->render.settings);
+        return NULL;
+    }
+    const int has_thread = pthread_create(&thread, NULL, open_draw, &o) == 0;
+    if (!has_thread)
+        open_draw(&o);
+    while (!wait_for(&o)) {
+        if (is_to_end(v)) {
+            *was_ended = 1;
+            view_draw_stop(o.draw);
+        }
+        v->is_opening = 1;
+        viewer_compose(v);
+        v->wake(v->user, 1);
+    }
+    if (has_thread)
+        pthread_join(thread, NULL);
+    v->changed |= v->is_opening;
+    v->is_opening = 0;
+    if (!o.failed)
+        return o.draw;
+    view_draw_close(o.draw);
+    return NULL;
 }
 
 /* ---- Opening ------------------------------------------------------------------------------------------------ */
@@ -96,7 +186,21 @@ static void replace(viewer *v, view_draw *draw, const render_options *options, i
     viewer_publish(v);
 }
 
-/* Opens files by settings, of which the figure's are also needed as options. Takes paths and settings over. */
+static int start_frames(viewer *v)
+{
+    v->frames = view_draw_start_frames(v->draw, (size_t)v->options.render.memory_mib << 20, viewer_on_frames, v);
+    if (!v->frames) { /* there is a message to read */
+        view_draw_close(v->draw);
+        v->draw = NULL;
+        v->options.render.settings = NULL;
+        return -1;
+    }
+    view_recent_add(v->options.render.input);
+    return 0;
+}
+
+/* Opens files by settings, of which the figure's are also needed as options. Takes paths and settings over. Returns 0,
+ * -1, or 1 where the user ended it. */
 static int open_by(viewer *v, char *paths, char *settings, int is_same, int keeps_camera)
 {
     view_options o = v->options;
@@ -130,24 +234,28 @@ static int open_by(viewer *v, char *paths, char *settings, int is_same, int keep
         program_error("%s", error);
         free(settings);
     }
-    view_draw *const draw = failed ? NULL : view_draw_open(&o); /* takes the settings over */
+    int was_ended = 0;
+    view_draw *const draw = failed ? NULL : open_and_tell(v, &o, &was_ended);
     if (!draw) {
         viewer_free_opened(&next);
-        return -1;
+        return was_ended ? 1 : -1;
     }
     viewer_forget_settings(v);
     replace(v, draw, &o.render, keeps_camera);
-    v->frames = view_draw_start_frames(draw, (size_t)o.render.memory_mib << 20, viewer_on_frames, v);
     viewer_free_opened(&v->opened);
     v->opened = next;
-    if (!v->frames) { /* there is a message to read */
-        view_draw_close(v->draw);
-        v->draw = NULL;
-        v->options.render.settings = NULL;
-        return -1;
-    }
-    view_recent_add(v->options.render.input);
-    return 0;
+    return start_frames(v);
+}
+
+void viewer_open_first(viewer *v)
+{
+    int was_ended;
+    view_draw *const draw = open_and_tell(v, &v->options, &was_ended);
+    v->options.render.settings = NULL; /* what opens took them over */
+    if (!draw)
+        return;
+    replace(v, draw, &draw->options, 0);
+    start_frames(v);
 }
 
 void viewer_forget_settings(viewer *v)
@@ -165,7 +273,7 @@ void viewer_free_opened(view_opened *o)
     *o = (view_opened){.paths = NULL};
 }
 
-/* Opens files by lines of the figure's settings; paths: NULL: those that are shown. */
+/* Opens files by lines of the figure's settings; paths: NULL: those that are shown. Results as those of open_by. */
 static int open_lines(viewer *v, const char *paths, const char *lines, int keeps_camera)
 {
     static const char *const size_name[] = {"size", NULL};
@@ -224,7 +332,7 @@ void viewer_open(viewer *v, const char *paths)
     const int failed = (to ? fclose(to) : -1) | (to_few ? fclose(to_few) : -1);
     if (failed)
         program_error("out of memory");
-    else if (open_lines(v, paths, text, 0) && strcmp(text, few) != 0 && is_there(paths) &&
+    else if (open_lines(v, paths, text, 0) < 0 && strcmp(text, few) != 0 && is_there(paths) &&
              open_lines(v, paths, few, 0) == 0)
         viewer_say(v, "options that do not go with this file are left out"); /* why was said before */
     free(text);

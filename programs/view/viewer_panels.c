@@ -82,6 +82,22 @@ static void draw_bar(viewer *v, const view_frames_state *s)
     cgt_canvas_line(&c, place, place, 11.0f * v->scale, accent);
 }
 
+/* Above the bar. */
+static void draw_line(viewer *v, const view_frames_state *s, const char line[][128])
+{
+    panel(v, 6.0f * v->scale, (s->count > 1 ? bar_top(v) : (float)v->height) - 32.0f * v->scale, 0, line, 1, -1);
+}
+
+/* How far the opening of other files is. */
+static void draw_opening(viewer *v, const view_frames_state *s)
+{
+    char line[1][128];
+    pthread_mutex_lock(&v->lock);
+    snprintf(line[0], sizeof line[0], "%.90s   Escape: end", v->progress[0] ? v->progress : "reading");
+    pthread_mutex_unlock(&v->lock);
+    draw_line(v, s, (const char(*)[128])line);
+}
+
 static void draw_status(viewer *v, const view_frames_state *s)
 {
     char line[1][128], time[48] = "", state[48] = "";
@@ -113,8 +129,7 @@ static void draw_status(viewer *v, const view_frames_state *s)
                             : "drag: turn   click: ask   ");
         snprintf(line[0], sizeof line[0], "%.127s", text);
     }
-    panel(v, 6.0f * v->scale, (s->count > 1 ? bar_top(v) : (float)v->height) - 32.0f * v->scale, 0,
-          (const char(*)[128])line, 1, -1);
+    draw_line(v, s, (const char(*)[128])line);
 }
 
 /* ---- The button of the panel of options ----------------------------------------------------------------------- */
@@ -150,7 +165,7 @@ static const char help_lines[][128] = {
     "h: this help       q: end",
 };
 
-/* Without a file. */
+/* Without a file, or with one that cannot be opened. */
 static const char empty_lines[][128] = {"Drop a file here", "or press Ctrl+O to choose one.       q: end"};
 
 /* The first of the list's rows that are seen, and how many fit. */
@@ -245,9 +260,12 @@ void viewer_draw_panels(viewer *v)
         view_frames_get(v->frames, &state);
         draw_picks(v);
         draw_bar(v, &state);
-        draw_status(v, &state);
+        if (!v->is_opening)
+            draw_status(v, &state);
     }
-    if (!v->options.render.input_count)
+    if (v->is_opening)
+        draw_opening(v, &state);
+    else if (!v->draw)
         panel(v, fmaxf(24.0f * v->scale, 0.5f * (float)v->width - 150.0f * v->scale), 0.45f * (float)v->height, 0,
               empty_lines, sizeof empty_lines / sizeof empty_lines[0], 0);
     if (v->picks) {

@@ -133,7 +133,7 @@ static double draw_better(viewer *v)
 
 int viewer_is_settled(const viewer *v)
 {
-    return !v->draw || v->scene_is_wrong ||
+    return (!v->draw && !v->opens) || v->scene_is_wrong ||
            (v->shown && v->wanted == v->shown->chosen && v->is_full && !v->outdated && !v->playing &&
             !v->movie.is_made);
 }

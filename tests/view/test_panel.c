@@ -26,7 +26,11 @@ static viewer *v;
 static view_panel *p;
 static char *before[OPTIONS], *refused[OPTIONS];
 
-static void wake(void *user) { (void)user; }
+static void wake(void *user, int has_picture)
+{
+    (void)user;
+    (void)has_picture;
+}
 
 static void open_panel(void)
 {
@@ -43,6 +47,7 @@ static void open_panel(void)
     o.render.memory_mib = 16;
     v = viewer_create(&o, wake, NULL);
     assert_non_null(v);
+    viewer_step(v, clock_now);
     assert_false(viewer_has_failed(v));
     for (int i = 0; i < 100000 && !viewer_is_settled(v); i++)
         if (viewer_step(v, clock_now += 0.05) > 0.0)

@@ -8,6 +8,8 @@
 #include "support/test.h"
 
 #include <math.h>
+#include <signal.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -56,7 +58,17 @@ static int remove_run(void **state)
     return system("rm -f ./*") == 0 && chdir("..") == 0 && rmdir(folder) == 0 ? 0 : -1;
 }
 
-static void wake(void *user) { (void)user; }
+/* What a test does where a step goes on and has a picture; NULL: nothing. */
+static void (*on_picture)(void);
+
+static void wake(void *user, int has_picture)
+{
+    (void)user;
+    if (has_picture && on_picture)
+        on_picture();
+}
+
+static void on_frames(void *user) { (void)user; }
 
 static const char *settings = "ambient = 16\n";
 
@@ -76,6 +88,7 @@ static viewer *open_viewer(uint32_t memory)
     o.render.memory_mib = memory;
     viewer *const v = viewer_create(&o, wake, NULL);
     assert_non_null(v);
+    viewer_step(v, clock_now);
     assert_false(viewer_has_failed(v));
     return v;
 }
@@ -575,7 +588,7 @@ TEST(little_memory_loses_no_frame)
                                    .reading = &reading,
                                    .range = {1, UINT64_MAX - 1, 2},
                                    .memory = 3 * frame,
-                                   .wake = wake};
+                                   .wake = on_frames};
     v->frames = view_frames_start(&source, &o);
     v->shown = NULL; /* it was one of the frames that are gone */
     assert_non_null(v->frames);
@@ -653,6 +666,76 @@ static view_event random_event(test_random *r)
     e.height = random_below(r, 120);
     e.scale = random_below(r, 2) ? 1.0f : 2.0f;
     return e;
+}
+
+/* ---- Opening ------------------------------------------------------------------------------------------------ */
+
+static viewer *waiting; /* for a run without an end, */
+static int ends_by;     /* until this */
+static uint32_t pictures, with_count;
+static atomic_int is_over;
+
+enum { BY_ESCAPE, BY_WINDOW };
+
+static void end_opening(void)
+{
+    pthread_mutex_lock(&waiting->lock);
+    with_count += strstr(waiting->progress, "reading") && strstr(waiting->progress, " frames");
+    pthread_mutex_unlock(&waiting->lock);
+    if (++pictures != 3) /* progress is told ten times a second, as pictures are shown */
+        return;
+    const view_event escape = {.kind = VIEW_KEY, .key = VIEW_KEY_ESCAPE};
+    if (ends_by == BY_ESCAPE)
+        viewer_send(waiting, &escape);
+    else
+        viewer_stop(waiting);
+}
+
+static void *write_without_end(void *user)
+{
+    FILE *const to = fopen(user, "w");
+    for (int frame = 0; to && !is_over; frame++) {
+        fprintf(to, "1\nframe %d\nH 0 0 %d\n", frame, frame % 10);
+        usleep(fflush(to) ? 1000 : 100); /* the reader has left, or reads on */
+    }
+    return to && fclose(to) == 0 ? NULL : user;
+}
+
+/* What takes long to open tells how far it is, and can be ended: by Escape, which leaves what is shown, and with the
+ * window. */
+TEST(openings_can_be_ended)
+{
+    pthread_t writer;
+    signal(SIGPIPE, SIG_IGN);
+    for (ends_by = BY_ESCAPE; ends_by <= BY_WINDOW; ends_by++) {
+        waiting = open_viewer(16);
+        settle(waiting);
+        for (float x = 0.5f; x < WIDTH && !waiting->picks; x += 4.0f)
+            click(waiting, x, HEIGHT / 2.0f);
+        const view_frame *const shown = waiting->shown;
+        waiting->options.render.output.survey = UINT64_MAX; /* as a legend has it */
+        assert_int_equal(mkfifo("slow.xyz", 0600), 0);
+        pictures = with_count = 0;
+        is_over = 0;
+        on_picture = end_opening;
+        assert_int_equal(pthread_create(&writer, NULL, write_without_end, "slow.xyz"), 0);
+        const view_event open = {.kind = VIEW_OPEN, .text = strdup("slow.xyz\n")};
+        viewer_send(waiting, &open);
+        viewer_step(waiting, clock_now);
+        on_picture = NULL;
+        is_over = 1;
+        pthread_join(writer, NULL);
+        assert_true(pictures >= 3 && with_count > 0);
+        assert_true(waiting->shown == shown && waiting->frames && !waiting->is_opening);
+        if (ends_by == BY_ESCAPE) {
+            viewer_step(waiting, clock_now); /* the key ended this, and nothing else */
+            assert_int_equal(waiting->picks, 1);
+            settle(waiting);
+            assert_string_equal(waiting->options.render.input, path);
+        }
+        viewer_free(waiting);
+        assert_int_equal(unlink("slow.xyz"), 0);
+    }
 }
 
 TEST(any_events)

@@ -25,10 +25,14 @@ static void push(view_window *w)
     SDL_PushEvent(&event);
 }
 
-/* Any thread: there is something to do. */
-static void wake(void *user)
+/* Any thread: there is something to do, or to show. */
+static void wake(void *user, int has_picture)
 {
     view_window *const w = user;
+    if (has_picture) {
+        push(w);
+        return;
+    }
     SDL_LockMutex(w->lock);
     w->is_woken = 1;
     w->is_settled = 0;
