@@ -60,6 +60,8 @@ const char *cgt_whitted_check(const whitted *w)
         return "there can be at most 64 bounces";
     if (!(w->faintest >= 0.0f && w->faintest <= 1.0f) || !(w->glass_shadow >= 0.0f && w->glass_shadow <= 1.0f))
         return "shares of light must be from 0 to 1";
+    if (w->geometries < cgt_scene_get_geometries(w->scene))
+        return "the scene has more geometries than are named";
     for (uint32_t i = 0; i < w->materials && !wrong; i++)
         wrong = check_material(&w->material[i]);
     for (uint32_t i = 0; i < w->geometries && !wrong; i++)

@@ -135,8 +135,6 @@ cgt_result cgt_whitted_surfaces(const whitted *w, const whitted_ray *ray, whitte
         s[i].inside = s[i].outside = 0.0f;
         if (primitive == CGT_INVALID_ID)
             continue;
-        if (hit[i].geometry >= w->geometries) /* the scene has more geometries than were named */
-            return CGT_ERROR_TOO_LARGE;
         const whitted_geometry *g = &w->geometry[hit[i].geometry];
         s[i].body = (whitted_body){hit[i].geometry,
                                    g->spheres ? primitive

@@ -212,8 +212,17 @@ TEST(bad_input_is_refused)
     const float center[3] = {0};
     const cgt_spheres spheres = {.count = 1, .centers = cgt_floats(center, 0)};
     whitted_geometry g = {.spheres = &spheres};
-    whitted w = {.material = bad, .materials = 1, .geometry = &g, .geometries = 1};
+    cgt_context *context;
+    cgt_scene *one;
+    assert_int_equal(cgt_context_create(NULL, &context), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, NULL, &one), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(one, NULL, &spheres), CGT_OK);
+    assert_int_equal(cgt_scene_commit(one), CGT_OK);
+    whitted w = {.scene = one, .material = bad, .materials = 1, .geometry = &g, .geometries = 1};
     assert_null(cgt_whitted_check(&w));
+    w.geometries = 0;
+    assert_non_null(strstr(cgt_whitted_check(&w), "more geometries"));
+    w.geometries = 1;
     const float indices[] = {0.0f, 0.99f, NAN, INFINITY, -1.5f};
     for (uint32_t i = 0; i < TEST_COUNT(indices); i++) {
         bad[0].index = indices[i];
@@ -239,6 +248,8 @@ TEST(bad_input_is_refused)
     w.light = &dark;
     w.lights = 1;
     assert_non_null(strstr(cgt_whitted_check(&w), "light"));
+    cgt_scene_release(one);
+    cgt_context_release(context);
 }
 
 SEEDED_SUITE("test_whitted_light", NULL, NULL)
