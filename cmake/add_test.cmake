@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: MIT
 #
 # One line per test:
-#   cgt_add_test(<name> [SLOW] [STATIC] <sources>... [LABELS <labels>...] [LIBRARIES <targets>...] [TIMEOUT <seconds>])
+#   cgt_add_test(<name> [SLOW] [STATIC] [PROFILES] <sources>... [LABELS <labels>...] [LIBRARIES <targets>...]
+#                [TIMEOUT <seconds>])
 #       A cmocka program. It may include the internal headers. It links cgt_test_support and the library: the shared
 #       object cgt_visible where there is one. STATIC takes the archive, for tests that replace functions of the library
 #       or of the system, or measure; a test that includes a .c file replaces what is in it, and is STATIC by itself.
+#       PROFILES: by itself it runs a little of each profile (cgt_add_profile_tests). Where CGT_TEST_SCALE shortens tests
+#       each profile does no more than that, and it is left out.
 #   cgt_add_variant_test(<name> [SLOW] <sources>... [LABELS ...] [LIBRARIES ...] [TIMEOUT ...])
 #       The same, compiled and run once per row of the variant table, as <name>_<row>. CGT_TEST_ROWS names the rows, where
 #       all are too many; a test with the label `words` is built for every row all the same.
@@ -82,7 +85,7 @@ function(cgt_set_test_properties name seconds)
 endfunction()
 
 function(cgt_add_test name)
-    cmake_parse_arguments(test "SLOW;STATIC" "TIMEOUT" "LABELS;LIBRARIES" ${ARGN})
+    cmake_parse_arguments(test "SLOW;STATIC;PROFILES" "TIMEOUT" "LABELS;LIBRARIES" ${ARGN})
     cgt_test_selected(selected ${test_LABELS})
     if(NOT selected)
         return()
@@ -111,6 +114,9 @@ function(cgt_add_test name)
     endif()
     target_link_libraries(${name} PRIVATE ${test_LIBRARIES} cgt_test_support)
     add_dependencies(test_programs ${name})
+    if(test_PROFILES AND cgt_test_scale)
+        return()
+    endif()
     add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}")
     if(NOT test_TIMEOUT)
         set(test_TIMEOUT 60)

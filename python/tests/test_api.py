@@ -194,22 +194,24 @@ def test_a_new_call_or_field_would_be_noticed(monkeypatch):
 # ---- names and types ----
 
 
-def mypy(*files):
+@pytest.fixture(scope="module")
+def mypy(tmp_path_factory):
     """Checks programs as their writers do, against the package that is installed."""
     pytest.importorskip("mypy", reason="no mypy (Debian: apt-get install mypy)")
     folder = os.path.dirname(os.path.dirname(cgt.__file__))
     command = [sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", "--follow-imports=silent",
-               "--cache-dir", os.devnull, *map(str, files)]
-    return subprocess.run(command, capture_output=True, text=True, check=False, env={**os.environ, "MYPYPATH": folder})
+               "--cache-dir", str(tmp_path_factory.mktemp("mypy"))]
+    return lambda *files: subprocess.run([*command, *map(str, files)], capture_output=True, text=True, check=False,
+                                         env={**os.environ, "MYPYPATH": folder})
 
 
-def test_examples_have_the_types_that_they_use():
+def test_examples_have_the_types_that_they_use(mypy):
     examples = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "examples")
     found = mypy(*(os.path.join(examples, name) for name in os.listdir(examples) if name.endswith(".py")))
     assert found.returncode == 0, found.stdout
 
 
-def test_a_type_checker_knows_names_and_types(tmp_path):
+def test_a_type_checker_knows_names_and_types(mypy, tmp_path):
     program = tmp_path / "program.py"
     program.write_text("import cgt\ncgt.shwo(1)\ncgt.Camera(fov='wide')\nreveal_type(cgt.show([[0, 0, 0]]))\n"
                        "reveal_type(cgt.read('a')[0].step)\ncgt.trimesh, cgt.colors.palette, cgt.research\n")
