@@ -4,7 +4,8 @@
 #
 # night.sh [--left | --row | PART...]
 # Runs what is too long for each change, part by part, and keeps account of it in build/night: a run that was stopped
-# goes on where it was, as long as the revision is the same. Without arguments: all parts that are left.
+# goes on where it was, as long as the files are the same; texts are the suites' alone, which test them. Without
+# arguments: all parts that are left.
 #   suite-NAME     scripts/test.sh --whole NAME, for each suite of each platform
 #   cpu-NAMES      the tests of release with CGT_DISABLE_CPU=NAMES: what a CPU without them runs
 #   cpus-N         the tests of release on a machine that claims to have N processors (tests/night/cpus.c)
@@ -26,9 +27,16 @@ parts=("${suites[@]/#/suite-}" cpu-avx512 "cpu-avx512,avx2" cpus-4 cpus-64 bugs 
 [ -z "$(git status --porcelain)" ] || { echo "night.sh: commit first: a night is of a revision" >&2; exit 2; }
 revision=$(git log -1 --format=%H -- . ":!$table") # the row of a night is no other revision
 mkdir -p $night
-[ -f $account ] && [ "$(head -n 1 $account)" = "# $revision" ] || echo "# $revision" >$account
+touch $account
 
-result_of() { awk -F '\t' -v part="$1" '$1 == part { result = $2 } END { print result }' $account; }
+# Of what files a part's account is.
+tree=$(git ls-tree -r HEAD -- . | grep -v "$table" | sha256sum | cut -c 1-12)
+code=$(git ls-tree -r HEAD -- . | grep -vE $'\t(docs/|[A-Z]+(\.md)?$)' | sha256sum | cut -c 1-12)
+files_of() { [[ $1 = suite-* ]] && echo "$tree" || echo "$code"; }
+
+# The account of these files.
+lines() { awk -F '\t' -v tree="$tree" -v code="$code" '$5 == (/^suite-/ ? tree : code)' $account; }
+result_of() { lines | awk -F '\t' -v part="$1" '$1 == part { result = $2 } END { print result }'; }
 is_part() { [[ " ${parts[*]} " == *" $1 "* ]]; }
 
 run_release() { # with variables of the environment
@@ -62,10 +70,10 @@ case ${1:-} in
     exit ;;
 --row)
     cpu=$(sed -nE 's/^model name[[:space:]]*: *//p' /proc/cpuinfo | head -n 1)
-    ran=$(awk -F '\t' '!/^#/ { result[$1] = $1 (($2 == "passed") ? "" : " FAILED") ": " $4 " (" $3 " s)" }
-                       END { for (part in result) print result[part] }' $account | sort | paste -sd ';' | sed 's/;/; /g')
-    found=$(awk -F '\t' '!/^#/ { result[$1] = $2 } END { for (part in result) bad += result[part] != "passed"
-                         print bad + 0 }' $account)
+    ran=$(lines | awk -F '\t' '{ result[$1] = $1 (($2 == "passed") ? "" : " FAILED") ": " $4 " (" $3 " s)" }
+                       END { for (part in result) print result[part] }' | sort | paste -sd ';' | sed 's/;/; /g')
+    found=$(lines | awk -F '\t' '{ result[$1] = $2 } END { for (part in result) bad += result[part] != "passed"
+                         print bad + 0 }')
     left=$("$0" --left | paste -sd ' ')
     # shellcheck disable=SC2016 # those are Markdown's
     printf '| %s | `%s` | %s, %s cores | %s | %s | %s |\n' "$(date +%F)" "${revision:0:12}" "$cpu" "$(nproc)" "$ran" \
@@ -85,7 +93,8 @@ for part in "${@:-${parts[@]}}"; do
     start=$SECONDS result=passed
     run_part "$part" >"$night/$part.log" 2>&1 </dev/null || result=failed
     [ $result = passed ] || status=1
-    printf '%s\t%s\t%d\t%s\n' "$part" $result $((SECONDS - start)) "$(amount_of "$part")" >>$account
+    printf '%s\t%s\t%d\t%s\t%s\n' "$part" $result $((SECONDS - start)) "$(amount_of "$part")" \
+        "$(files_of "$part")" >>$account
     echo "night.sh: $part: $result, $((SECONDS - start)) s; $(amount_of "$part")"
 done
 exit $status
