@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "data/element_symbols.h"
+#include "data/molecule/element_symbols.h"
 #include "text/labels.h"
 
 static void set_first_light(const cgt_figure *figure, cgt_picture_light *light)

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "data/element_symbols.h"
+#include "data/molecule/element_symbols.h"
 #include "options/numbers.h"
 
 /* ---- Pixels ------------------------------------------------------------------------------------------------- */

@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "data/expression.h"
+#include "data/expression/expression.h"
 
 enum { CATEGORY_WORD_SIZE = 64 };
 

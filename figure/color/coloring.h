@@ -14,7 +14,7 @@
 
 #include "color/categories.h"
 #include "color/color_table.h"
-#include "data/expression.h"
+#include "data/expression/expression.h"
 #include "survey/survey.h"
 
 typedef enum coloring_by {

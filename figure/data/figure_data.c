@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "color/given_colors.h"
-#include "data/element_radii.h"
+#include "data/molecule/element_radii.h"
 #include "options/numbers.h"
 
 enum { WORD_SIZE = sizeof(((const cgt_trajectory_column *)0)->word[0]) };

@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "data/expression.h"
+#include "data/expression/expression.h"
 
 enum { PARTICLE_KINDS = 32, PARTICLE_LAYERS = 9, PARTICLE_LAYER_STEP = 16 };
 

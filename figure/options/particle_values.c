@@ -9,7 +9,7 @@
 
 #include "options/numbers.h"
 #include "options/option_row.h"
-#include "data/element_symbols.h"
+#include "data/molecule/element_symbols.h"
 
 /* ---- Which spheres ------------------------------------------------------------------------------------------- */
 

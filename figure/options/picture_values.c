@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "data/label_rules.h"
+#include "data/expression/label_rules.h"
 #include "options/numbers.h"
 #include <cgt/picture.h>
 

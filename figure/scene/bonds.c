@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "data/near_pairs.h"
+#include "data/molecule/near_pairs.h"
 #include "scene/shapes.h"
 #include "sequence/periodic_box.h"
 

@@ -9,7 +9,7 @@
 #include "color/coloring.h"
 #include "scene/shapes.h"
 #include "scene/floor.h"
-#include "data/label_rules.h"
+#include "data/expression/label_rules.h"
 #include "data/particles.h"
 #include "scene/sticks.h"
 #include "options/figure_options.h"

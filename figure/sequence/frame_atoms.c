@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "data/bond_guess.h"
-#include "data/element_radii.h"
+#include "data/molecule/bond_guess.h"
+#include "data/molecule/element_radii.h"
 #include "options/numbers.h"
 
 static int fail_memory(const cgt_trajectory_frame *f, char *error, size_t error_size)

@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 #include "color/categories.h"
-#include "data/expression.h"
+#include "data/expression/expression.h"
 #include "data/particles.h"
 #include "notices.h"
 #include "sequence/frame_atoms.h"

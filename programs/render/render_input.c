@@ -5,7 +5,7 @@
 #include "render/render_input.h"
 
 #include "common/program.h"
-#include "data/expression.h"
+#include "data/expression/expression.h"
 #include "trajectory/trajectory_status.h"
 
 static void on_log(void *user, cgt_log_level level, const char *message)

@@ -4,11 +4,11 @@
  * Trajectories: reading, and the arrays of a frame. Each format has a file of its own. */
 #define _FILE_OFFSET_BITS 64
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/trajectory_atoms.h"
+#include "trajectory/atoms/trajectory_atoms.h"
 #include "trajectory/trajectory_guess.h"
 #include "trajectory/trajectory_internal.h"
-#include "trajectory/trajectory_sites.h"
-#include "trajectory/trajectory_topology.h"
+#include "trajectory/atoms/trajectory_sites.h"
+#include "trajectory/atoms/trajectory_topology.h"
 
 #include <float.h>
 #include <inttypes.h>

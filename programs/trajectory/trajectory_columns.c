@@ -5,7 +5,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_columns.h"
 #include "trajectory/trajectory_internal.h"
-#include "trajectory/trajectory_topology.h"
+#include "trajectory/atoms/trajectory_topology.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -8,7 +8,7 @@
 #define TRAJECTORY_COLUMNS_H
 
 #include <cgt/trajectory.h>
-#include "trajectory/trajectory_elements.h"
+#include "trajectory/atoms/trajectory_elements.h"
 
 typedef struct wanted_column {
     char *name;

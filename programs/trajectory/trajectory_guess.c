@@ -6,9 +6,9 @@
  * lists none; what it lists is added. Two of the places that an atom may have are never bonded. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_guess.h"
-#include "data/bond_guess.h"
-#include "trajectory/trajectory_atoms.h"
-#include "trajectory/trajectory_topology.h"
+#include "data/molecule/bond_guess.h"
+#include "trajectory/atoms/trajectory_atoms.h"
+#include "trajectory/atoms/trajectory_topology.h"
 
 #include <stdlib.h>
 

@@ -9,7 +9,7 @@
 #define TRAJECTORY_INTERNAL_H
 
 #include <cgt/trajectory.h>
-#include "trajectory/trajectory_bonds.h"
+#include "trajectory/atoms/trajectory_bonds.h"
 #include "trajectory/trajectory_columns.h"
 #include "trajectory/trajectory_formats.h"
 #include "trajectory/trajectory_input.h"

@@ -4,7 +4,7 @@
  * What readers say: errors, which end the reading, and warnings, which tell how a doubtful file was read. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_internal.h"
-#include "trajectory/trajectory_topology.h"
+#include "trajectory/atoms/trajectory_topology.h"
 
 #include <inttypes.h>
 #include <stdarg.h>

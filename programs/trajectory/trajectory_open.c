@@ -6,7 +6,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_content.h"
 #include "trajectory/trajectory_internal.h"
-#include "trajectory/trajectory_topology.h"
+#include "trajectory/atoms/trajectory_topology.h"
 
 #include <errno.h>
 #include <math.h>

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "data/expression.h"
+#include "data/expression/expression.h"
 #include "figure_state.h"
 
 /* ---- Bonds -------------------------------------------------------------------------------------------------- */

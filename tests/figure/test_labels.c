@@ -11,7 +11,7 @@
 
 #include <cgt/figure.h>
 
-#include "data/label_rules.h"
+#include "data/expression/label_rules.h"
 #include "options/figure_values.h"
 #include "text/labels.h"
 

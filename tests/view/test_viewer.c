@@ -16,7 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "view/viewer_internal.h"
+#include "view/viewer/viewer_internal.h"
 
 enum { SPHERES = 200, FRAMES = 12, WIDTH = 96, HEIGHT = 64 };
 

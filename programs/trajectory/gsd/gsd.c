@@ -7,7 +7,7 @@
 #include "trajectory/binary/atom_array.h"
 #include "trajectory/gsd/gsd_index.h"
 #include "trajectory/gsd/gsd_shapes.h"
-#include "trajectory/trajectory_bonds.h"
+#include "trajectory/atoms/trajectory_bonds.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -5,8 +5,8 @@
  * each under a keyword and a blank line. One frame. Which columns the atoms have tells the style behind their keyword,
  * "Atoms # full"; where it is missing, their number. Bonds refer to ids, in any order. */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/trajectory_bonds.h"
-#include "trajectory/trajectory_sites.h"
+#include "trajectory/atoms/trajectory_bonds.h"
+#include "trajectory/atoms/trajectory_sites.h"
 #include "trajectory/lammps/lammps_parts.h"
 
 #include <inttypes.h>

@@ -9,8 +9,8 @@
 #include "trajectory/molecule/cif_tags.h"
 #include "trajectory/molecule/cif_tokens.h"
 #include "trajectory/molecule/molecule_atom.h"
-#include "trajectory/trajectory_atoms.h"
-#include "trajectory/trajectory_sites.h"
+#include "trajectory/atoms/trajectory_atoms.h"
+#include "trajectory/atoms/trajectory_sites.h"
 
 #include <inttypes.h>
 #include <math.h>

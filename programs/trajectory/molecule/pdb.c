@@ -6,7 +6,7 @@
  * HETATM and alternate locations too. CONECT gives bonds. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/molecule/molecule_atom.h"
-#include "trajectory/trajectory_atoms.h"
+#include "trajectory/atoms/trajectory_atoms.h"
 
 #include <inttypes.h>
 #include <math.h>

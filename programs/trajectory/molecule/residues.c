@@ -4,7 +4,7 @@
  * Residues of elements that are named by their places; see residues.h. */
 #include "trajectory/molecule/residues.h"
 
-#include "data/residue_names.h"
+#include "data/molecule/residue_names.h"
 
 static const char nucleotides[] = " A C G U T I DA DC DG DT DU DI RA RC RG RU ADE CYT GUA THY URA ";
 

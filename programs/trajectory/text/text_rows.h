@@ -6,7 +6,7 @@
 #ifndef TEXT_ROWS_H
 #define TEXT_ROWS_H
 
-#include "trajectory/trajectory_elements.h"
+#include "trajectory/atoms/trajectory_elements.h"
 #include "trajectory/trajectory_internal.h"
 
 typedef enum row_role {

@@ -4,7 +4,7 @@
  * Atoms without places. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/topologies/atom_facts.h"
-#include "trajectory/trajectory_sites.h"
+#include "trajectory/atoms/trajectory_sites.h"
 
 #include <math.h>
 #include <string.h>

@@ -6,7 +6,7 @@
 #define ATOM_FACTS_H
 
 #include "trajectory/molecule/molecule_atom.h"
-#include "trajectory/trajectory_atoms.h"
+#include "trajectory/atoms/trajectory_atoms.h"
 
 typedef struct atom_fact {
     uint32_t id, number; /* number: atomic; 0: not told */

@@ -5,7 +5,7 @@
  * fields, "%FORMAT(20a4)". Bonds are three times the atoms' numbers. Those between two hydrogens of water hold its
  * angle, and are none. */
 #define _POSIX_C_SOURCE 200809L
-#include "data/residue_names.h"
+#include "data/molecule/residue_names.h"
 #include "trajectory/molecule/residues.h"
 #include "trajectory/topologies/atom_facts.h"
 

@@ -9,7 +9,7 @@
  * blank line where the first frame has one in that place, or with a whole header where the cell changes. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/molecule/molecule_atom.h"
-#include "trajectory/trajectory_sites.h"
+#include "trajectory/atoms/trajectory_sites.h"
 
 #include <inttypes.h>
 #include <math.h>

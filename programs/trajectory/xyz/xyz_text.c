@@ -7,7 +7,7 @@
  * atomic numbers are known by their property, Z or numbers. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/xyz/xyz_comment.h"
-#include "trajectory/trajectory_elements.h"
+#include "trajectory/atoms/trajectory_elements.h"
 #include "trajectory/text/text_rows.h"
 
 #include <inttypes.h>

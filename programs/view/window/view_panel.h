@@ -8,7 +8,7 @@
 
 #include <SDL2/SDL.h>
 
-#include "view/viewer.h"
+#include "view/viewer/viewer.h"
 
 #ifdef __cplusplus
 extern "C" {

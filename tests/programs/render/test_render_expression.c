@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "color/coloring.h"
-#include "data/expression.h"
+#include "data/expression/expression.h"
 #include <cgt/picture.h>
 
 enum { COUNT = 300 }; /* more than a block */

@@ -14,7 +14,7 @@
 #include "text/text.h"
 #include "view/view_camera.h"
 #include "view/view_draw.h"
-#include "view/viewer.h"
+#include "view/viewer/viewer.h"
 
 enum { VIEW_CHANGES = 100, VIEW_SENTENCE = 1024 };
 enum { VIEW_PICKS = MEASURE_MOST, VIEW_MESSAGES = 6, VIEW_LIST_MOST = 300, VIEW_LEVELS = 6 };

@@ -10,7 +10,7 @@
 
 #include "data/measure.h"
 #include "view/view_ask.h"
-#include "view/viewer_internal.h"
+#include "view/viewer/viewer_internal.h"
 
 /* Of the shown frame. */
 static void count_selected(viewer *v)

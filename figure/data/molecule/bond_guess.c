@@ -2,12 +2,12 @@
  * SPDX-License-Identifier: MIT
  *
  * Bonds by covalent radii; see bond_guess.h. */
-#include "data/bond_guess.h"
+#include "data/molecule/bond_guess.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "data/near_pairs.h"
+#include "data/molecule/near_pairs.h"
 #include "sequence/periodic_box.h"
 
 /* ---- Covalent radii ------------------------------------------------------------------------------------------ */

@@ -5,8 +5,8 @@
 #ifndef EXPRESSION_STEPS_H
 #define EXPRESSION_STEPS_H
 
-#include "data/expression.h"
-#include "data/element_symbols.h"
+#include "data/expression/expression.h"
+#include "data/molecule/element_symbols.h"
 
 enum {
     EXPRESSION_STEPS = 128,

@@ -6,7 +6,7 @@
 #define TRAJECTORY_TOPOLOGY_H
 
 #include <cgt/trajectory.h>
-#include "trajectory/trajectory_bonds.h"
+#include "trajectory/atoms/trajectory_bonds.h"
 
 typedef struct trajectory_topology {
     cgt_trajectory *file;

@@ -2,10 +2,10 @@
  * SPDX-License-Identifier: MIT
  *
  * Residues and alternate places. */
-#include "trajectory/trajectory_atoms.h"
-#include "data/residue_names.h"
+#include "trajectory/atoms/trajectory_atoms.h"
+#include "data/molecule/residue_names.h"
 #include "trajectory/molecule/residues.h"
-#include "trajectory/trajectory_sites.h"
+#include "trajectory/atoms/trajectory_sites.h"
 
 #include <string.h>
 

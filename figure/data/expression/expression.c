@@ -3,14 +3,14 @@
  *
  * Formulas over columns; see expression.h. The parser, by recursive descent, writes steps for a stack machine, each of
  * which works on a block of elements at a time (expression_run.c). */
-#include "data/expression.h"
+#include "data/expression/expression.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "data/expression_steps.h"
+#include "data/expression/expression_steps.h"
 #include "options/numbers.h"
 
 enum { MOST_NESTING = 200 }; /* of the stack of calls */

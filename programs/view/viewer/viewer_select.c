@@ -11,7 +11,7 @@
 
 #include "options/numbers.h"
 #include "view/view_ask.h"
-#include "view/viewer_internal.h"
+#include "view/viewer/viewer_internal.h"
 
 /* ---- Selecting ---------------------------------------------------------------------------------------------- */
 

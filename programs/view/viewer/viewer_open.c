@@ -4,7 +4,7 @@
  * Other files in place of those that are shown, the same read anew, and settings files. What fails leaves all as it
  * is. */
 #define _POSIX_C_SOURCE 200809L
-#include "view/viewer_internal.h"
+#include "view/viewer/viewer_internal.h"
 
 #include <inttypes.h>
 #include <pthread.h>

@@ -5,7 +5,7 @@
  * panels of other threads read copies. */
 #define _POSIX_C_SOURCE 200809L
 #include "options/numbers.h"
-#include "view/viewer_internal.h"
+#include "view/viewer/viewer_internal.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
  *
  * Events of the viewer: what hand and keys change. */
 #define _POSIX_C_SOURCE 200809L
-#include "view/viewer_internal.h"
+#include "view/viewer/viewer_internal.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "view/viewer_internal.h"
+#include "view/viewer/viewer_internal.h"
 
 static const float white[3] = {0.85f, 0.85f, 0.85f}, dim[3] = {0.3f, 0.3f, 0.3f}, accent[3] = {1.0f, 0.45f, 0.05f};
 

@@ -3,8 +3,8 @@
  *
  * Bonds by ids. */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/trajectory_bonds.h"
-#include "data/bond_guess.h"
+#include "trajectory/atoms/trajectory_bonds.h"
+#include "data/molecule/bond_guess.h"
 #include "trajectory/trajectory_internal.h"
 
 #include <inttypes.h>

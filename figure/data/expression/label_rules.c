@@ -2,14 +2,14 @@
  * SPDX-License-Identifier: MIT
  *
  * Labels of spheres; see label_rules.h. */
-#include "data/label_rules.h"
+#include "data/expression/label_rules.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "data/element_symbols.h"
+#include "data/molecule/element_symbols.h"
 #include "data/frame_access.h"
 #include "options/numbers.h"
 

@@ -3,7 +3,7 @@
  *
  * Near spheres, through a hash of cells whose edges are the distance: neighbours lie in the 27 cells around a sphere,
  * of which half are looked at from each. */
-#include "data/near_pairs.h"
+#include "data/molecule/near_pairs.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,8 +3,8 @@
  *
  * Sites that are no atoms, by their names in GROMACS, Amber, CHARMM, OpenMM, NMR structures and quantum chemistry. */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/trajectory_sites.h"
-#include "data/residue_names.h"
+#include "trajectory/atoms/trajectory_sites.h"
+#include "data/molecule/residue_names.h"
 #include "trajectory/molecule/residues.h"
 #include "trajectory/trajectory_internal.h"
 

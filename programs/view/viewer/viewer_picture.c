@@ -4,7 +4,7 @@
  * The viewer's pictures. While something moves each must be there within --budget: shadows are drawn where
  * they have taken less, then none, then fewer pixels. At rest the picture grows to cgt-render's; an event
  * ends the step at hand. */
-#include "view/viewer_internal.h"
+#include "view/viewer/viewer_internal.h"
 
 #include <math.h>
 #include <stdio.h>

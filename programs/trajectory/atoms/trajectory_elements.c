@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Elements by their names and masses; see trajectory_elements.h. */
-#include "trajectory/trajectory_elements.h"
-#include "trajectory/trajectory_sites.h"
+#include "trajectory/atoms/trajectory_elements.h"
+#include "trajectory/atoms/trajectory_sites.h"
 
 #include <math.h>
 #include <string.h>

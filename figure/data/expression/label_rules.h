@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "data/expression.h"
+#include "data/expression/expression.h"
 #include "data/particles.h"
 
 enum { LABEL_PARTS = 5, LABEL_SIZE = 64, LABELS_MOST = 300 };

@@ -4,7 +4,7 @@
  * Movies of what is seen: cgt-render makes them, in a process of its own, by the settings of the picture at hand; so
  * they have its bytes, and the window goes on. */
 #define _POSIX_C_SOURCE 200809L
-#include "view/viewer_internal.h"
+#include "view/viewer/viewer_internal.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -6,7 +6,7 @@
 #ifndef ELEMENT_RADII_H
 #define ELEMENT_RADII_H
 
-#include "data/element_symbols.h"
+#include "data/molecule/element_symbols.h"
 
 #define ELEMENT_DEFAULT_RADIUS 2.0f /* Angstrom: elements missing from the table, and names that are no elements */
 

@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "data/expression_steps.h"
-#include "data/residue_names.h"
+#include "data/expression/expression_steps.h"
+#include "data/molecule/residue_names.h"
 #include "options/numbers.h"
 #include "data/frame_access.h"
 

@@ -3,9 +3,9 @@
  *
  * Spheres by the atoms of another file. */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/trajectory_topology.h"
+#include "trajectory/atoms/trajectory_topology.h"
 #include "trajectory/trajectory_internal.h"
-#include "trajectory/trajectory_sites.h"
+#include "trajectory/atoms/trajectory_sites.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #ifndef TRAJECTORY_ELEMENTS_H
 #define TRAJECTORY_ELEMENTS_H
 
-#include "data/element_radii.h"
+#include "data/molecule/element_radii.h"
 #include "trajectory/text/text_reader.h"
 
 /* How a name was understood. */

@@ -4,7 +4,7 @@
  * The viewer; see viewer.h. Its steps: take events, take the frame that is due, draw a picture of what has changed or
  * a better one of what has not. */
 #define _POSIX_C_SOURCE 200809L
-#include "view/viewer_internal.h"
+#include "view/viewer/viewer_internal.h"
 
 #include <math.h>
 #include <stdarg.h>

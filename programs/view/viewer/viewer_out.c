@@ -12,7 +12,7 @@
 
 #include "common/out_file.h"
 #include "common/out_path.h"
-#include "view/viewer_internal.h"
+#include "view/viewer/viewer_internal.h"
 
 /* ---- Pictures ----------------------------------------------------------------------------------------------- */
 
