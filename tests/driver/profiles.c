@@ -229,7 +229,7 @@ const driver_profile driver_profiles[] = {
      * tiles of a light */
     {.name = "lights",
      .scenes = 56,
-     .groups = {&column_scenes, &cloud_scenes, &column_scenes, &column_scenes},
+     .groups = {&column_scenes, &cloud_scenes, &column_scenes, &capsule_scenes},
      .primitives = 9200,
      .lines = {any_lines},
      .rays = 2,

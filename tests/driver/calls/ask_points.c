@@ -162,10 +162,26 @@ static void skip_hits(driver_run *run, driver_view *w)
     }
 }
 
+/* Some ranges end at what is met, or a few steps of a float beside that. */
+static void end_at_hits(driver_run *run, driver_view *w)
+{
+    static full_hit hit[DRIVER_LIT];
+    test_random *const r = &run->scene.random;
+    const cgt_rays rays = driver_ray_array(w->to_lit, w->lit);
+    const cgt_hits hits = hit_array(hit);
+    if (!driver_succeeds(run, cgt_trace_rays(run->setup.scene, &rays, &hits, NULL), "cgt_trace_rays"))
+        return;
+    for (uint32_t i = random_below(r, 5); i < w->lit; i += 1 + random_below(r, 8))
+        if (hit[i].primitive != CGT_INVALID_ID)
+            w->to_lit[i].line.t_max = hit[i].t * (1 + ((float)random_below(r, 17) - 8) * 0x1p-23f);
+}
+
 /* ---- answers ---- */
 
 static void find_shadows(driver_run *run, driver_view *w)
 {
+    if (w->lit_ranges)
+        end_at_hits(run, w);
     if (w->lit_skips && driver_samples(run) && random_below(&run->scene.random, 6))
         skip_hits(run, w);
     for (uint32_t i = 0; i < w->lit; i++)

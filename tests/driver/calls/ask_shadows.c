@@ -290,8 +290,27 @@ void driver_shadows_begin(driver_run *run, driver_view *w)
     w->has_ambient = random_below(&run->scene.random, 3) == 0;
 }
 
+/* Puts some lights to where a pixel hits, or a few steps of a float beside that: rays to them end at a surface. The
+ * first has points of its own by now (ask_points.c). */
+static void move_lights(driver_run *run, driver_view *w)
+{
+    test_random *const r = &run->scene.random;
+    for (uint32_t k = 1; k < DRIVER_LIGHTS; k++) {
+        const uint32_t i = random_below(r, w->pixels);
+        float p[3];
+        if (w->light[k].kind != CGT_LIGHT_POINT || random_below(r, 3) || !driver_is_hit(w, i))
+            continue;
+        driver_position(w, i, p);
+        for (int a = 0; a < 3; a++)
+            p[a] *= 1 + ((float)random_below(r, 17) - 8) * 0x1p-23f;
+        if (isfinite(p[0] + p[1] + p[2]))
+            memcpy(w->light[k].position, p, sizeof p);
+    }
+}
+
 void driver_shadows_find(driver_run *run, driver_view *w)
 {
+    move_lights(run, w);
     find_shadows(run, w);
     if (w->has_ambient)
         find_ambient(run, w);
