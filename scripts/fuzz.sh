@@ -7,8 +7,7 @@
 # Builds the fuzz targets of tests/fuzz with clang, libFuzzer and the address and undefined-behaviour sanitizers in
 # build/fuzz, and runs one after another for the given time each, from the corpus of the repository. What is found new
 # goes to build/fuzz/corpus; an input that fails goes to build/fuzz/findings, and ends the run with exit code 1. What a
-# target was run for is kept in build/fuzz/TARGET.seconds: a run that was stopped goes on, one of another revision starts
-# anew.
+# target was run for is kept in build/fuzz/TARGET.seconds: a run that was stopped goes on, one of other code starts anew.
 #   again       build/fuzz/fuzz/fuzzer_scene build/fuzz/findings/crash-...
 #   smaller     build/fuzz/fuzz/fuzzer_scene -minimize_crash=1 -runs=10000 build/fuzz/findings/crash-...
 #   to keep     build/fuzz/fuzz/fuzzer_scene -merge=1 tests/fuzz/corpus/scene build/fuzz/corpus/scene
@@ -42,7 +41,7 @@ count_seconds() {
                                          END { printf "%d\n", sum }')
 }
 
-revision=$(git rev-parse HEAD 2>/dev/null || echo none)
+revision=$(scripts/code_hash.sh 2>/dev/null || echo none)
 slice=300 # seconds of a run of the fuzzer, after which the account is written
 status=0
 for target in "${targets[@]}"; do

@@ -31,7 +31,7 @@ touch $account
 
 # Of what files a part's account is.
 tree=$(git ls-tree -r HEAD -- . | grep -v "$table" | sha256sum | cut -c 1-12)
-code=$(git ls-tree -r HEAD -- . | grep -vE $'\t(docs/|[A-Z]+(\.md)?$)' | sha256sum | cut -c 1-12)
+code=$(scripts/code_hash.sh)
 files_of() { [[ $1 = suite-* ]] && echo "$tree" || echo "$code"; }
 
 # The account of these files.
