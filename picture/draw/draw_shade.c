@@ -260,6 +260,26 @@ static void add_background(const drawing *d, pixel_sum *sum)
         sum->all[c] = sum->hits[c] + ((float)(n * n) - sum->cover) * d->options->style.background[c];
 }
 
+/* Pixels of one ray each. Returns those with a hit. */
+static uint32_t store_rays(const drawing *d, uint32_t x, uint32_t y, uint32_t pixels)
+{
+    draw_ray_light light[RUN];
+    uint32_t hits = 0;
+    cgt_draw_shade_rays(d, x, y, pixels, light);
+    for (uint32_t i = 0; i < pixels; i++) {
+        const draw_ray_light *const l = &light[i];
+        pixel_sum sum = {.hits = {l->color[0], l->color[1], l->color[2]},
+                         .count = l->cover > 0.0f,
+                         .cover = l->cover,
+                         .depth = l->depth,
+                         .id = l->id};
+        add_background(d, &sum);
+        draw_store(d, &sum, x + i, y);
+        hits += sum.count;
+    }
+    return hits;
+}
+
 uint32_t cgt_draw_shade_row(const drawing *d, uint32_t y)
 {
     const uint32_t width = d->options->width;
@@ -269,6 +289,10 @@ uint32_t cgt_draw_shade_row(const drawing *d, uint32_t y)
         const uint32_t pixels = width - x < RUN ? width - x : RUN;
         if (is_background(d, x, y, pixels)) {
             draw_fill_background(d, x, y, pixels);
+            continue;
+        }
+        if (!d->whole && !d->layers && d->options->antialias == 1) {
+            hits += store_rays(d, x, y, pixels);
             continue;
         }
         for (uint32_t i = 0; i < pixels; i++)
