@@ -109,6 +109,7 @@ targets_of() {
 build_tests() {
     local targets
     mapfile -t targets < <(targets_of "$@")
+    [ ${#targets[@]} -gt 0 ] || return 0 # a script over sources
     cmake --build "$dir/build" -j "$jobs" --target "${targets[@]}" >"$dir/build.log" 2>&1
 }
 
