@@ -182,6 +182,14 @@ static void set_title(viewer *v)
         snprintf(v->title, sizeof v->title, "%.180s", input);
 }
 
+static void put_band(void *user, uint32_t number)
+{
+    viewer *const v = user;
+    const uint32_t rows = viewer_band(v->height), first = number * rows;
+    for (uint32_t y = first; y < first + rows && y < v->pixels_height; y++)
+        put_row(v->over + 3 * (size_t)y * v->width, v->pixels + (size_t)y * v->width, v->width, v->dirty[number]);
+}
+
 void viewer_compose(viewer *v)
 {
     const double begin = program_seconds();
@@ -195,9 +203,10 @@ void viewer_compose(viewer *v)
         v->pixels_height = v->pixels ? v->height : 0;
         memset(v->dirty, 0, sizeof v->dirty);
     }
-    const uint32_t band = viewer_band(v->height);
-    for (uint32_t y = 0; y < v->pixels_height; y++)
-        put_row(v->over + 3 * (size_t)y * v->width, v->pixels + (size_t)y * v->width, v->width, v->dirty[y / band]);
+    if (v->draw)
+        cgt_context_run_tasks(v->draw->context, put_band, v, VIEW_RECTS);
+    for (uint32_t i = 0; i < VIEW_RECTS && !v->draw; i++)
+        put_band(v, i);
     v->picture_number++;
     set_title(v);
     pthread_mutex_unlock(&v->picture_lock);
