@@ -128,6 +128,9 @@ static view_draw *open_and_tell(viewer *v, const view_options *options, int *was
     }
     if (has_thread)
         pthread_join(thread, NULL);
+    pthread_mutex_lock(&v->lock);
+    v->sent = 0.0; /* how long pictures take is not told by events that waited for this */
+    pthread_mutex_unlock(&v->lock);
     v->changed |= v->is_opening;
     v->is_opening = 0;
     if (!o.failed)
