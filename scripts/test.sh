@@ -271,7 +271,8 @@ run_suite() {
         cp "$cache/durations_$preset.txt" "$durations"
     fi
     # shellcheck disable=SC2086 # the runner is several words or none
-    $runner ctest --preset "$preset" "${only[@]}" -j "$jobs" --no-tests=error </dev/null 2>&1 | tee "$log" || ok=no
+    # One more than processors: some tests wait for programs.
+    $runner ctest --preset "$preset" "${only[@]}" -j $((jobs + 1)) --no-tests=error </dev/null 2>&1 | tee "$log" || ok=no
     [ ! -e "$durations" ] || cp "$durations" "$cache/durations_$preset.txt"
     echo "==== $suite: tested in $((SECONDS - start)) s"
 

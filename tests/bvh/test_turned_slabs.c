@@ -189,6 +189,8 @@ TEST(bundles_are_exact)
 {
     static const float scales[] = {1, 0x1p-30f, 0x1p20f};
     for (uint32_t turn = 0; turn < 4 * TEST_COUNT(scales); turn++) {
+        if (test_samples() && (turn % 4 + turn / 4) % 3) /* each kind once, and each scale */
+            continue;
         test_random r = random_make(300 + turn);
         const bundle kind = (bundle)(turn % 4);
         const float scale = scales[turn / 4];

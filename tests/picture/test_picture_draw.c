@@ -331,7 +331,8 @@ static void check_noise(uint32_t layers)
 
 TEST(noise_falls_with_antialiasing)
 {
-    check_noise(0);
+    if (!test_samples())
+        check_noise(0);
     check_noise(1);
 }
 
@@ -370,7 +371,7 @@ TEST(whole_pixels_look_as_their_rays_do)
     uint32_t edges = 0;
     set_camera(&camera);
     for (uint32_t ambient = 0; ambient <= 256; ambient += 256)
-        for (uint32_t antialias = 2; antialias <= 4; antialias += 2) {
+        for (uint32_t antialias = 2; antialias <= (test_samples() ? 2 : 4); antialias += 2) {
             set_up(&s, 2, NULL);
             set_everything(&s);
             set_opaque(&s, 1);
@@ -617,9 +618,11 @@ TEST(bands_have_the_bytes_of_steps)
         uint32_t left = 1;
         assert_int_equal(cgt_picture_step(s.picture, 1, &left), CGT_OK);
         assert_int_equal(left, 0);
-        assert_int_equal(cgt_picture_read(s.picture, &other), CGT_OK); /* draws it again */
-        assert_memory_equal(drawn, stepped, BYTES);
-        memset(stepped, 0, sizeof stepped);
+        if (!test_samples()) {
+            assert_int_equal(cgt_picture_read(s.picture, &other), CGT_OK); /* draws it again */
+            assert_memory_equal(drawn, stepped, BYTES);
+            memset(stepped, 0, sizeof stepped);
+        }
         assert_int_equal(cgt_picture_begin(s.picture, s.scene, &camera, looks, 2, NULL), CGT_OK);
         assert_int_equal(cgt_picture_step(s.picture, UINT32_MAX, NULL), CGT_OK);
         assert_int_equal(cgt_picture_read(s.picture, &other), CGT_OK);

@@ -252,7 +252,7 @@ TEST(threads_do_not_change_surveys)
         }
     }
     assert_int_equal(fclose(file), 0);
-    for (uint32_t threads = 1; threads <= 7; threads += threads < 3 ? 1 : 4) {
+    for (uint32_t threads = 1; threads <= (test_samples() ? 3 : 7); threads += threads < 3 ? 1 : 4) {
         frame_source source;
         cgt_trajectory_options options;
         cgt_context *some;

@@ -21,6 +21,28 @@ view() {
     run "$wanted" $size --script script "$@"
 }
 
+# talk CODE FUNCTION OPTIONS...: runs the script that a function prints meanwhile, which may wait for what is said.
+talk() {
+    wanted=$1
+    rm -f "$tmp/script" "$tmp/stdout"
+    mkfifo "$tmp/script"
+    "$2" >"$tmp/script" &
+    shift 2
+    run "$wanted" $size --script script "$@"
+    wait
+    rm "$tmp/script"
+}
+
+# ask PATTERN: prints a script that says how it is until that was said, a minute at most.
+ask() {
+    for tries in $(seq 600); do
+        printf 'say\n'
+        sleep 0.05
+        ! grep -q "$1" "$tmp/stdout" 2>/dev/null || return 0
+        printf 'wait 0.05\n'
+    done
+}
+
 # color_by_last ARGUMENT...: chooses the last of the file's columns from the list of the key l, and writes the picture.
 color_by_last() {
     view 0 "$@" <<'END'
@@ -170,16 +192,13 @@ END
 says err 'wrong.settings:2: whole: the option takes no value'
 says out '^frame 0, '
 # a file that is written anew
-(sleep 2; mv "$tmp/later.xyz" "$tmp/few.xyz") &
-view 0 --style plain -a 1 few.xyz <<'END'
-settle
-wait 4
-key r
-settle
-key s
-settle
-END
-wait
+write_anew() {
+    printf 'settle\n'
+    ask '^frame 0, '
+    mv "$tmp/later.xyz" "$tmp/few.xyz"
+    printf 'key r\nsettle\nkey s\nsettle\n'
+}
+talk 0 write_anew --style plain -a 1 few.xyz
 same view_0000-4.png # by the file that is there now
 
 # A movie is cgt-render's, and one that is ended leaves nothing; Python for a picture.
@@ -435,21 +454,17 @@ says out '^frame [1-9]'
 
 # A run that is being written goes on at its end; the first frame does not come again.
 frame() { printf '3\nframe %d\nC %d 0 0\nO 3 %d 0\nN 0 0 4\n' "$1" "$1" "$1"; }
-for patience in 6 30 120; do # a busy machine needs more time
-    { frame 0; frame 1; } >"$tmp/grows.xyz"
-    (sleep 2 && frame 2 >>"$tmp/grows.xyz") &
-    view 0 --follow $((3 * patience)) grows.xyz <<END
-settle
-key Space
-wait $patience
-key Space
-settle
-say
-END
-    wait
-    grep -q '^frame 2, ' "$tmp/stdout" && break
-done
-says out '^frame 2, '
+grow() {
+    printf 'settle\nkey Space\n'
+    ask '^frame 1, '
+    frame 2 >>"$tmp/grows.xyz"
+    ask '^frame 2, '
+    printf 'key Space\nsettle\nsay\n'
+}
+{ frame 0; frame 1; } >"$tmp/grows.xyz"
+talk 0 grow --follow 90 grows.xyz
+sed -n 's/^frame \([0-9]*\),.*/\1/p' "$tmp/stdout" | uniq >"$tmp/frames"
+sort -c -u "$tmp/frames" && [ "$(tail -n 1 "$tmp/frames")" = 2 ] || fail "a run that grows: $(cat "$tmp/stdout")"
 
 # Options: what is left out is refused in words, what is shared has the sentences of cgt-render.
 view 2 --orbit 3 "$pour" </dev/null

@@ -92,7 +92,7 @@ static void add_secondary(test_random *r, uint32_t parts, cgt_kd_frame_options *
 TEST(random_scenes)
 {
     test_random r = random_make(3011);
-    for (unsigned k = 0, count = test_between(18, 36); k < count; k++) {
+    for (unsigned k = 0, count = test_between(12, 36); k < count; k++) {
         const uint32_t parts = k / 3 % 3 == 2 ? 2 + k % 4 : 1;
         const cgt_structure structure = structure_of(k);
         make_random(&r, 1 + (uint32_t)random_bits(&r) % 600, k % 2 ? 0.1f : 0.4f);
@@ -176,8 +176,9 @@ TEST(doubts_matter)
         cgt_camera_init(&camera);
         camera.eye[2] = 2;
         const cgt_kd_frame_options o = {.cell = {.spes = 2, .function = kd_library_program(structure_of(k))}};
-        kd_library_check(&q, &camera, 96, 96, &o);
-        assert_int_equal(kd_library_run(&q, &camera, 96, 96, &o, &cell_result), CGT_OK);
+        const uint32_t edge = test_samples() ? 48 : 96;
+        kd_library_check(&q, &camera, edge, edge, &o);
+        assert_int_equal(kd_library_run(&q, &camera, edge, edge, &o, &cell_result), CGT_OK);
         assert_true(cell_result.changed > 0);
         kd_library_release(&q);
     }
@@ -187,7 +188,7 @@ TEST(doubts_matter)
 TEST(fuzzed_scenes)
 {
     test_random r = random_make(3016);
-    const unsigned count = test_between(80, 240);
+    const unsigned count = test_between(32, 240);
     unsigned traced = 0;
     for (unsigned k = 0; k < count; k++) {
         const uint32_t kind = k % 4;
