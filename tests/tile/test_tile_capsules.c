@@ -190,7 +190,7 @@ TEST(frames_of_every_kind)
     for (uint32_t kind = 0; kind < TEST_COUNT(kinds); kind++) {
         test_random r = random_make(900 + kind);
         frames_tally tally = {0};
-        for (uint32_t round = 0; round < 1 + test_scaled(23); round++) {
+        for (uint32_t round = 0; round < (test_samples() ? 1 : 2) + test_scaled(22); round++) {
             fill_scene(&s, &r, kinds[kind].place, round % 4, scale[random_below(&r, TEST_COUNT(scale))]);
             dual_scene b = commit_scene(&s, round % 3 ? 0 : random_float(&r, 0.5f, 16));
             for (uint32_t i = 0; i < 3; i++) {
@@ -262,7 +262,7 @@ TEST(windows_hold_capsules)
     static tile t;
     test_random r = random_make(930);
     uint64_t seen = 0, small = 0;
-    for (uint32_t round = 0; round < 2 + test_scaled(38); round++) {
+    for (uint32_t round = 0; round < (test_samples() ? 2 : 4) + test_scaled(36); round++) {
         fill_scene(&s, &r, round % 2 ? place_any : place_bond, 0, 1);
         dual_scene b = commit_scene(&s, 0);
         const cgt_committed_scene *w = &b.loose->committed_scene;

@@ -58,6 +58,8 @@ static int remove_run(void **state)
     return system("rm -f ./*") == 0 && chdir("..") == 0 && rmdir(folder) == 0 ? 0 : -1;
 }
 
+static viewer *waiting; /* the one that was opened last */
+
 /* What a test does where a step goes on and has a picture; NULL: nothing. */
 static void (*on_picture)(void);
 
@@ -71,6 +73,7 @@ static void wake(void *user, int has_picture)
 static void on_frames(void *user) { (void)user; }
 
 static const char *settings = "ambient = 16\n";
+static uint64_t survey_of = VIEW_SURVEY_AUTO; /* frames */
 
 static viewer *open_viewer(uint32_t memory)
 {
@@ -83,10 +86,10 @@ static viewer *open_viewer(uint32_t memory)
     o.render.figure.width = WIDTH;
     o.render.figure.height = HEIGHT;
     o.render.settings = strdup(settings);
-    o.render.output.survey = VIEW_SURVEY_AUTO;
+    o.render.output.survey = survey_of;
     o.render.threads = 2;
     o.render.memory_mib = memory;
-    viewer *const v = viewer_create(&o, wake, NULL);
+    viewer *const v = waiting = viewer_create(&o, wake, NULL);
     assert_non_null(v);
     viewer_step(v, clock_now);
     assert_false(viewer_has_failed(v));
@@ -670,8 +673,7 @@ static view_event random_event(test_random *r)
 
 /* ---- Opening ------------------------------------------------------------------------------------------------ */
 
-static viewer *waiting; /* for a run without an end, */
-static int ends_by;     /* until this */
+static int ends_by; /* a run without an end */
 static uint32_t pictures, with_count;
 static atomic_int is_over;
 
@@ -736,6 +738,31 @@ TEST(openings_can_be_ended)
         viewer_free(waiting);
         assert_int_equal(unlink("slow.xyz"), 0);
     }
+}
+
+/* The first file that is not waited for is none, and nothing has failed. */
+TEST(first_openings_can_be_ended)
+{
+    pthread_t writer;
+    survey_of = UINT64_MAX;
+    snprintf(path, sizeof path, "slow.xyz");
+    for (ends_by = BY_ESCAPE; ends_by <= BY_WINDOW; ends_by++) {
+        assert_int_equal(mkfifo(path, 0600), 0);
+        pictures = 0;
+        is_over = 0;
+        on_picture = end_opening;
+        assert_int_equal(pthread_create(&writer, NULL, write_without_end, path), 0);
+        viewer *const v = open_viewer(16); /* asserts that it has not failed */
+        on_picture = NULL;
+        is_over = 1;
+        pthread_join(writer, NULL);
+        assert_true(pictures >= 3 && !v->draw && viewer_is_settled(v));
+        assert_int_equal(v->messages, ends_by == BY_ESCAPE);
+        viewer_free(v);
+        assert_int_equal(unlink(path), 0);
+    }
+    snprintf(path, sizeof path, "run.lammpstrj");
+    survey_of = VIEW_SURVEY_AUTO;
 }
 
 TEST(any_events)

@@ -45,6 +45,11 @@ void viewer_say(viewer *v, const char *format, ...)
 static int on_error(void *user, const char *text)
 {
     viewer *const v = user;
+    pthread_mutex_lock(&v->lock);
+    const int is_leaving = v->is_leaving;
+    pthread_mutex_unlock(&v->lock);
+    if (is_leaving)
+        return 1;
     add_message(v, text);
     v->wake(v->user, 0);
     return 0;

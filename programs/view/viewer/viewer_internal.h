@@ -148,6 +148,7 @@ struct viewer {
     view_message message[VIEW_MESSAGES];
     uint32_t messages;
     char progress[128]; /* of what takes long; "": nothing does */
+    int is_leaving;     /* the window was closed while files were opened */
     view_option option[OPTIONS_MOST];
     char *columns;
     char *formula;   /* of the selection, where it was made from what was picked; NULL: nothing new */

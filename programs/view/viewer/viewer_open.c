@@ -85,19 +85,21 @@ static int wait_for(view_opening *o)
     return is_done;
 }
 
-/* Whether the opening is to end: by Escape, which is for this alone then, or with the window. */
+/* Whether the opening is to end: by Escape, which is for this alone then, or with the window, which says no more. */
 static int is_to_end(viewer *v)
 {
-    int ends = v->closing != 0;
+    int ends = 0;
     pthread_mutex_lock(&v->lock);
+    v->is_leaving |= v->closing;
     for (size_t i = 0; i < v->event_count; i++) {
         view_event *const e = &v->events[i];
         if (e->kind == VIEW_KEY && e->key == VIEW_KEY_ESCAPE) {
             e->key = 0;
             ends = 1;
         }
-        ends |= e->kind == VIEW_KEY && e->key == 'q' && !e->control;
+        v->is_leaving |= e->kind == VIEW_KEY && e->key == 'q' && !e->control;
     }
+    ends |= v->is_leaving;
     pthread_mutex_unlock(&v->lock);
     return ends;
 }
@@ -255,6 +257,8 @@ void viewer_open_first(viewer *v)
     int was_ended;
     view_draw *const draw = open_and_tell(v, &v->options, &was_ended);
     v->options.render.settings = NULL; /* what opens took them over */
+    if (!draw && was_ended)
+        v->options.render.input_count = 0; /* there is no file */
     if (!draw)
         return;
     replace(v, draw, &draw->options, 0);
