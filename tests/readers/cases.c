@@ -7,6 +7,7 @@
  * read again, and read from each frame on after skipping those before it: that has to give the same. The README there
  * tells more. */
 #define _GNU_SOURCE
+#define _FILE_OFFSET_BITS 64 /* folders are read on systems of 32 bits, too, whatever numbers their entries have */
 #include <dirent.h>
 
 #include "readers/frame_text.h"
