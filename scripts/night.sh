@@ -60,7 +60,9 @@ run_part() {
 }
 
 # What a part says of itself, in a few words: its last line that counts something.
-amount_of() { grep -E '[0-9]+ (passed|caught|inputs|rounds)' "$night/$1.log" | tail -n 1 | sed 's/^soak: //; s/;/,/g' || true; }
+amount_of() {
+    grep -E '[0-9]+ (passed|caught|inputs|rounds)' "$night/$1.log" | tail -n 1 | sed 's/^soak: //; s/;/,/g' || true
+}
 
 case ${1:-} in
 --left)
