@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * hits [PROFILE [FIRST [SCENES [FAMILY]]]]
- * Runs a profile, or some scenes of each. Each scene depends on its number, its profile and CGT_TEST_SEED alone, so
- * that what fails is seen again by its number. Without SCENES it takes as many as the profile says, or two of each,
+ * Runs a profile, or a scene of each. Each scene depends on its number, its profile and CGT_TEST_SEED alone, so
+ * that what fails is seen again by its number. Without SCENES it takes as many as the profile says, or one of each,
  * times CGT_TEST_SCALE; those of one profile must have been as hard as it says. */
 #include <stdio.h>
 #include <stdlib.h>
@@ -77,7 +77,7 @@ static uint32_t number_of(int argc, char **argv, int i, uint32_t without)
 int main(int argc, char **argv)
 {
     const range all = {.first = number_of(argc, argv, 2, clusters_always() ? 10000 : 0),
-                       .scenes = number_of(argc, argv, 3, argc > 1 ? 0 : test_scaled(2)),
+                       .scenes = number_of(argc, argv, 3, argc > 1 ? 0 : test_scaled(1)),
                        .family = number_of(argc, argv, 4, SCENE_ANY_FAMILY)};
     bool good = true, found = false;
     test_begin("hits");
