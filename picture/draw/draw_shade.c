@@ -260,24 +260,31 @@ static void add_background(const drawing *d, pixel_sum *sum)
         sum->all[c] = sum->hits[c] + ((float)(n * n) - sum->cover) * d->options->style.background[c];
 }
 
-/* Pixels of one ray each. Returns those with a hit. */
-static uint32_t store_rays(const drawing *d, uint32_t x, uint32_t y, uint32_t pixels)
+/* Pixels of one ray each: there is nothing to add up. */
+static void take_rays(const drawing *d, uint32_t x, uint32_t y, uint32_t pixels, pixel_sum *sum)
 {
     draw_ray_light light[RUN];
-    uint32_t hits = 0;
     cgt_draw_shade_rays(d, x, y, pixels, light);
     for (uint32_t i = 0; i < pixels; i++) {
         const draw_ray_light *const l = &light[i];
-        pixel_sum sum = {.hits = {l->color[0], l->color[1], l->color[2]},
-                         .count = l->cover > 0.0f,
-                         .cover = l->cover,
-                         .depth = l->depth,
-                         .id = l->id};
-        add_background(d, &sum);
-        draw_store(d, &sum, x + i, y);
-        hits += sum.count;
+        sum[i] = (pixel_sum){.hits = {l->color[0], l->color[1], l->color[2]},
+                             .count = l->cover > 0.0f,
+                             .cover = l->cover,
+                             .depth = l->depth,
+                             .id = l->id};
     }
-    return hits;
+}
+
+/* The rays of pixels of a row, which do not all miss. */
+static void add_up(const drawing *d, uint32_t x, uint32_t y, uint32_t pixels, pixel_sum *sum)
+{
+    for (uint32_t i = 0; i < pixels; i++)
+        sum[i] = (pixel_sum){.depth = INFINITY, .id = CGT_INVALID_ID};
+    if (d->whole) {
+        add_whole(d, x, y, pixels, sum);
+        add_rest(d, x, y, pixels, sum);
+    } else
+        add_rays(d, x, y, pixels, sum);
 }
 
 uint32_t cgt_draw_shade_row(const drawing *d, uint32_t y)
@@ -291,17 +298,10 @@ uint32_t cgt_draw_shade_row(const drawing *d, uint32_t y)
             draw_fill_background(d, x, y, pixels);
             continue;
         }
-        if (!d->whole && !d->layers && d->options->antialias == 1) {
-            hits += store_rays(d, x, y, pixels);
-            continue;
-        }
-        for (uint32_t i = 0; i < pixels; i++)
-            sums[i] = (pixel_sum){.depth = INFINITY, .id = CGT_INVALID_ID};
-        if (d->whole) {
-            add_whole(d, x, y, pixels, sums);
-            add_rest(d, x, y, pixels, sums);
-        } else
-            add_rays(d, x, y, pixels, sums);
+        if (!d->whole && !d->layers && d->options->antialias == 1)
+            take_rays(d, x, y, pixels, sums);
+        else
+            add_up(d, x, y, pixels, sums);
         for (uint32_t i = 0; i < pixels; i++) {
             add_background(d, &sums[i]);
             draw_store(d, &sums[i], x + i, y);
