@@ -703,11 +703,31 @@ static void *write_without_end(void *user)
     return to && fclose(to) == 0 ? NULL : user;
 }
 
+static pthread_t writer;
+
+/* A run without an end, which end_opening ends once it is opened. */
+static void begin_slow(void)
+{
+    assert_int_equal(mkfifo("slow.xyz", 0600), 0);
+    pictures = with_count = 0;
+    is_over = 0;
+    on_picture = end_opening;
+    assert_int_equal(pthread_create(&writer, NULL, write_without_end, "slow.xyz"), 0);
+}
+
+static void end_slow(void)
+{
+    on_picture = NULL;
+    is_over = 1;
+    pthread_join(writer, NULL);
+    assert_int_equal(unlink("slow.xyz"), 0);
+    assert_true(pictures >= 3 && with_count > 0);
+}
+
 /* What takes long to open tells how far it is, and can be ended: by Escape, which leaves what is shown, and with the
  * window. */
 TEST(openings_can_be_ended)
 {
-    pthread_t writer;
     signal(SIGPIPE, SIG_IGN);
     for (ends_by = BY_ESCAPE; ends_by <= BY_WINDOW; ends_by++) {
         waiting = open_viewer(16);
@@ -716,18 +736,11 @@ TEST(openings_can_be_ended)
             click(waiting, x, HEIGHT / 2.0f);
         const view_frame *const shown = waiting->shown;
         waiting->options.render.output.survey = UINT64_MAX; /* as a legend has it */
-        assert_int_equal(mkfifo("slow.xyz", 0600), 0);
-        pictures = with_count = 0;
-        is_over = 0;
-        on_picture = end_opening;
-        assert_int_equal(pthread_create(&writer, NULL, write_without_end, "slow.xyz"), 0);
+        begin_slow();
         const view_event open = {.kind = VIEW_OPEN, .text = strdup("slow.xyz\n")};
         viewer_send(waiting, &open);
         viewer_step(waiting, clock_now);
-        on_picture = NULL;
-        is_over = 1;
-        pthread_join(writer, NULL);
-        assert_true(pictures >= 3 && with_count > 0);
+        end_slow();
         assert_true(waiting->shown == shown && waiting->frames && !waiting->is_opening);
         if (ends_by == BY_ESCAPE) {
             viewer_step(waiting, clock_now); /* the key ended this, and nothing else */
@@ -736,30 +749,21 @@ TEST(openings_can_be_ended)
             assert_string_equal(waiting->options.render.input, path);
         }
         viewer_free(waiting);
-        assert_int_equal(unlink("slow.xyz"), 0);
     }
 }
 
 /* The first file that is not waited for is none, and nothing has failed. */
 TEST(first_openings_can_be_ended)
 {
-    pthread_t writer;
     survey_of = UINT64_MAX;
     snprintf(path, sizeof path, "slow.xyz");
     for (ends_by = BY_ESCAPE; ends_by <= BY_WINDOW; ends_by++) {
-        assert_int_equal(mkfifo(path, 0600), 0);
-        pictures = 0;
-        is_over = 0;
-        on_picture = end_opening;
-        assert_int_equal(pthread_create(&writer, NULL, write_without_end, path), 0);
+        begin_slow();
         viewer *const v = open_viewer(16); /* asserts that it has not failed */
-        on_picture = NULL;
-        is_over = 1;
-        pthread_join(writer, NULL);
-        assert_true(pictures >= 3 && !v->draw && viewer_is_settled(v));
+        end_slow();
+        assert_true(!v->draw && viewer_is_settled(v));
         assert_int_equal(v->messages, ends_by == BY_ESCAPE);
         viewer_free(v);
-        assert_int_equal(unlink(path), 0);
     }
     snprintf(path, sizeof path, "run.lammpstrj");
     survey_of = VIEW_SURVEY_AUTO;
