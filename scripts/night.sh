@@ -4,8 +4,8 @@
 #
 # night.sh [--left | --row | PART...]
 # Runs what is too long for each change, part by part, and keeps account of it in build/night: a run that was stopped
-# goes on where it was, as long as the files are the same; texts are the suites' alone, which test them. Without
-# arguments: all parts that are left.
+# goes on where it was, as long as the files are the same; texts are the suites' alone, which test them. So does another
+# machine, after the rows of docs/reports/nights.md. Without arguments: all parts that are left.
 #   suite-NAME     scripts/test.sh --whole NAME, for each suite of each platform
 #   cpu-NAMES      the tests of release with CGT_DISABLE_CPU=NAMES: what a CPU without them runs
 #   cpus-N         the tests of release on a machine that claims to have N processors (tests/night/cpus.c)
@@ -34,9 +34,15 @@ tree=$(git ls-tree -r HEAD -- . | grep -v "$table" | sha256sum | cut -c 1-12)
 code=$(scripts/code_hash.sh)
 files_of() { [[ $1 = suite-* ]] && echo "$tree" || echo "$code"; }
 
-# The account of these files.
+# The account of these files: this machine's, and that of the table's rows.
 lines() { awk -F '\t' -v tree="$tree" -v code="$code" '$5 == (/^suite-/ ? tree : code)' $account; }
-result_of() { lines | awk -F '\t' -v part="$1" '$1 == part { result = $2 } END { print result }'; }
+lines_of_rows() {
+    awk -F ' [|] ' -v tree="$tree" -v code="$code" '
+        { split($3, files, /[` ]+/); count = split($5, ran, /; /) }
+        { for (k = 1; k <= count; k++) if ((ran[k] ~ /^suite-/ ? files[3] == tree : files[2] == code)) {
+              split(ran[k], part, /[: ]/); print part[1] "\t" (ran[k] ~ / FAILED: / ? "failed" : "passed") } }' $table
+}
+result_of() { (lines_of_rows; lines) | awk -F '\t' -v part="$1" '$1 == part { result = $2 } END { print result }'; }
 is_part() { [[ " ${parts[*]} " == *" $1 "* ]]; }
 
 run_release() { # with variables of the environment
@@ -78,7 +84,8 @@ case ${1:-} in
                          print bad + 0 }')
     left=$("$0" --left | paste -sd ' ')
     # shellcheck disable=SC2016 # those are Markdown's
-    printf '| %s | `%s` | %s, %s cores | %s | %s | %s |\n' "$(date +%F)" "${revision:0:12}" "$cpu" "$(nproc)" "$ran" \
+    printf '| %s | `%s` | `%s %s` | %s, %s cores | %s | %s | %s |\n' "$(date +%F)" "${revision:0:12}" "$code" "$tree" \
+        "$cpu" "$(nproc)" "$ran" \
         "${left:-nothing}" "$([ "$found" = 0 ] && echo nothing || echo "$found parts failed")" >>$table
     tail -n 1 $table
     exit ;;

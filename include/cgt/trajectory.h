@@ -138,8 +138,8 @@ typedef struct cgt_trajectory_column {
 } cgt_trajectory_column;
 
 /* One frame. The arrays are valid until the next read, skip, rewind or close of the trajectory; values of columns also
- * end with cgt_trajectory_want_columns. cgt_spheres takes xyzr as it is: centers = xyzr, radii = xyzr + 3, both strides
- * 16 bytes. */
+ * end with cgt_trajectory_want_columns. cgt_spheres takes xyzr as it is: centers = cgt_floats(xyzr, 16), radii =
+ * cgt_floats(xyzr + 3, 16). */
 typedef struct cgt_trajectory_frame {
     uint64_t number;          /* from 0 */
     cgt_trajectory_kind kind; /* the same in all frames of a file */

@@ -197,9 +197,10 @@ void render_report_print(const render_report *report, uint64_t rays, uint32_t im
     if (count_max != count_min)
         fprintf(to, " to %" PRIu32 "\n", count_max);
     if (not_finite + negative + flat)
-        fprintf(to, "skipped %-10s%9" PRIu64 "     in all frames: %" PRIu64 " not finite, %" PRIu64 " %s\n",
-                unit_of(report), not_finite + negative + flat, not_finite, negative + flat,
-                report->kind == CGT_TRAJECTORY_TRIANGLES ? "without an area" : "with a negative radius");
+        fprintf(to,
+                "skipped           %9" PRIu64 "     in all frames: %" PRIu64 " not finite, %" PRIu64
+                " with a negative radius, %" PRIu64 " triangles without an area\n",
+                not_finite + negative + flat, not_finite, negative, flat);
     print_times(report, rays, hits, images, to);
     if (report->has_stats)
         print_stats(report, to);

@@ -254,7 +254,7 @@ run 0 -s 64x36 -o nothing/%d.png nothing.xyz
 count nothing 2
 cmp -s "$tmp/nothing/0.png" "$tmp/nothing/1.png" || fail "two empty frames differ"
 run 0 -s 64x36 -o odd.png odd.lammpstrj
-says out '^skipped spheres  *2 .* 1 not finite, 1 with a negative radius'
+says out '^skipped  *2 .* 1 not finite, 1 with a negative radius, 0 triangles without an area$'
 run 0 -s 1x1 -o tiny.png one.xyz
 is_png tiny.png
 run 0 -s 5000x1 -o wide.png one.xyz
@@ -271,7 +271,7 @@ no_parts
 run 0 -s 64x36 -o triangles/%d.png square.frames
 count triangles 2
 says out '^triangles  *3$'
-says out '^skipped triangles  *2 .* 0 not finite, 2 without an area'
+says out '^skipped  *2 .* 0 not finite, 0 with a negative radius, 2 triangles without an area$'
 says out '^colour  *one for all'
 cmp -s "$tmp/triangles/0.png" "$tmp/triangles/1.png" && fail "no triangle moved"
 automatic=$(sed -n 's/^camera *-c //p' "$tmp/stdout")
