@@ -146,7 +146,7 @@ CGT_API void cgt_inside_options_init(cgt_inside_options *options);
  *           threads, but depend on a direction that the library chooses
  * Invalid:  a NaN or an infinity in the point: not inside, counted
  * Speed:    spheres are looked up around the point if there is a BVH; for triangles, one ray goes to the nearest face
- *           of the scene's bounds, as long as there are no more than 65,536 geometries
+ *           of the scene's bounds, as long as there are no more than 16,384 geometries
  * Errors:   as cgt_trace_rays; INVALID_ARGUMENT (rule), UNSUPPORTED (the scene has capsules) */
 CGT_API cgt_result cgt_points_inside(const cgt_scene *scene, const cgt_points *points, const cgt_inside_options *how,
                                      uint8_t *inside, const cgt_trace_options *options);

@@ -25,7 +25,7 @@
  *   }
  *
  * Conventions of every call
- *   Result    cgt_result. A failed call changes nothing except the error message.
+ *   Result    cgt_result. A failed call changes nothing except the error message, and the arrays for its results.
  *   Messages  The object that a call is made on keeps a sentence about its last call that failed; what scenes fail in,
  *             their context keeps. The object's get_error_message copies it. An object whose creation failed is there,
  *             too: it has the message, refuses all other calls, and is released like any other. What is called on no
@@ -264,12 +264,12 @@ typedef enum cgt_structure {
  *   At the commit  with BVH, and with AUTO for incoherent rays, in place of a grid. LOOSE_GRID never has one.
  *   Beside a grid  of AUTO, at most once a commit: in cgt_scene_prepare; or in a call whose first line says that it may
  *                  build one, once such calls since the commit have brought 1/32 as many rays as there are primitives,
- *                  at the first of them if the grid has levels for crowded regions; and in cgt_trace_camera, if the
- *                  grid has such levels and the frame cannot go by tiles (masks, an extreme camera, packets asked for)
+ *                  at the first of them if the grid has levels for crowded regions. cgt_trace_camera is such a call where
+ *                  the frame cannot go by tiles (masks, an extreme camera)
  *   Memory         BVH and builder take 70 to 100 bytes a sphere and 110 to 140 a triangle or a capsule (evenly spread
  *                  ones; see cgt_scene_statistics.bytes), until the scene is released
  *   Threads        the context's build it; others may trace the scene meanwhile
- *   Errors         OUT_OF_MEMORY, TOO_LARGE: the call has traced no ray, and may be repeated */
+ *   Errors         OUT_OF_MEMORY, TOO_LARGE: the call may be repeated; what it has written of its results is undefined */
 
 /* The rays that a scene is mostly traced with. */
 typedef enum cgt_ray_kind {
@@ -575,8 +575,8 @@ typedef struct cgt_hits {
  *   hits      gets the hits, with the values of cgt_trace_camera
  *   options   NULL: the defaults
  * Memory: to build a BVH, and for scenes in bands; else none
- * Errors: INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE (count times stride, or a BVH), OUT_OF_MEMORY: no ray was traced,
- *         and the call may be repeated */
+ * Errors: INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE (count times stride, or a BVH), OUT_OF_MEMORY: the call may be
+ *         repeated, and what it has written is undefined */
 CGT_API cgt_result cgt_trace_rays(const cgt_scene *scene, const cgt_rays *rays, const cgt_hits *hits,
                                   const cgt_trace_options *options);
 
@@ -672,7 +672,7 @@ typedef struct cgt_points {
  * Speed:   faster than cgt_occluded_rays, without an array of directions. Points that are off or invalid cost next to
  *          nothing. For the shadows of a frame, cgt_occluded_frame is less work, though it takes a little time to make
  *          the points
- * Threads: one for up to 4,096 points; larger calls are cut into tasks of 4,096 to 32,768 neighbouring points
+ * Threads: one for up to 4,096 points; larger calls are cut into tasks of 4,096 neighbouring points
  * Errors:  as cgt_trace_rays */
 CGT_API cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, const cgt_points *points,
                                        uint8_t *occluded, const cgt_trace_options *options);

@@ -47,6 +47,8 @@ static void learn_from_frame(cgt_scene *scene)
         *frames = scene->band_of->frames_for_tree;
         return;
     }
+    if (scene->has_failed) /* nothing was traced since: what was learned for that commit holds for this one */
+        return;
     const bool camera = take_flag(&record->camera), rays = take_flag(&record->rays),
                points = take_flag(&record->points), tiles = take_flag(&record->light_tiles);
     scene->expects_tree = take_flag(&record->light_gave_up);
@@ -260,6 +262,7 @@ cgt_result cgt_scene_commit(cgt_scene *scene)
     const cgt_result result = build_scene(scene);
     cgt_float_environment_leave(&callers);
     cgt_publish_statistics(scene);
+    scene->has_failed = result != CGT_OK;
     if (result != CGT_OK)
         return result;
     scene->is_committed = true;

@@ -59,6 +59,8 @@ cgt_result cgt_context_run_tasks(cgt_context *context, cgt_task *task, void *arg
 {
     if (!context)
         return CGT_ERROR_INVALID_ARGUMENT;
+    if (context->failure != CGT_OK)
+        return context->failure;
     if (!task)
         return cgt_fail(context, CGT_ERROR_INVALID_ARGUMENT, "task is NULL");
     cgt_run_tasks(context, task, argument, count);

@@ -8,6 +8,9 @@
 #define CGT_FLOAT_ENVIRONMENT_H
 
 #include <float.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
 
 #include "float_mode.h"
 
@@ -19,5 +22,13 @@ typedef float_mode cgt_float_environment;
 static inline void cgt_float_environment_enter(cgt_float_environment *callers) { *callers = float_mode_default(); }
 
 static inline void cgt_float_environment_leave(const cgt_float_environment *callers) { float_mode_restore(*callers); }
+
+/* In any environment: by its bits, since others may take denormals for 0. */
+static inline bool cgt_is_zero(float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits << 1 == 0;
+}
 
 #endif

@@ -35,7 +35,7 @@ static cgt_result check_options(cgt_context *c, const cgt_context_options *o)
 {
     if (!o->memory.allocate != !o->memory.release)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "memory hooks: both functions are needed, or neither");
-    if (o->threads > MAX_THREADS)
+    if (!o->tasks.run && o->threads > MAX_THREADS)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "threads: %u, at most %u", o->threads, MAX_THREADS);
     return find_variant(c, o);
 }

@@ -49,7 +49,8 @@ typedef struct cgt_loose_level {
     uint32_t prims;
     float least; /* sizes from here on belong to this level or one before it, but for those outside its region */
     bool has_region;
-    float region_low[3], region_high[3]; /* where has_region is set: least and largest middles of the level */
+    /* Where has_region is set: a box that holds the level's middles, of cells of the level that it was cut from. */
+    float region_low[3], region_high[3];
     /* Along each axis, a primitive's bounds in cell i lie within low + i cell - reach and low + (i + 1) cell + reach,
      * in exact arithmetic of these numbers: the rounding of keys is included. */
     float reach[3];

@@ -103,6 +103,7 @@ struct cgt_scene {
     uint32_t free_id;    /* no lower one is free */
     uint64_t primitives; /* of all geometries */
     bool is_committed;   /* nothing changed since the last commit */
+    bool has_failed;     /* the last commit */
     cgt_committed_scene committed_scene;
     cgt_scene_statistics statistics;                   /* of the build, which fills them in bit by bit */
     cgt_research_scene_statistics research_statistics; /* likewise */

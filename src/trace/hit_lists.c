@@ -19,6 +19,14 @@ cgt_result cgt_ready_lists(const cgt_scene *scene, uint64_t rays, cgt_trace_sett
     return cgt_bands_build_bvh(bands, rays);
 }
 
+bool cgt_lists_use_bvh(const cgt_scene *scene, const cgt_trace_settings *settings, const cgt_band_call *bands)
+{
+    bool uses = !scene->in_bands && settings->use_bvh;
+    for (uint32_t b = 0; scene->in_bands && b < scene->bands->count; b++)
+        uses |= bands->use_bvh[b];
+    return uses;
+}
+
 void cgt_list_rays(const cgt_scene *scene, const cgt_trace_settings *settings, const cgt_band_call *bands,
                    cgt_hit_list *lists, uint32_t count, cgt_counts *counts)
 {

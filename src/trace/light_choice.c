@@ -7,8 +7,7 @@
 #include "builders/bvh/bvh_on_demand.h"
 #include "query/tile_limits.h"
 
-#define FEW_POINTS 256u     /* fewer go through a BVH if there is one */
-#define SCATTERED_POINTS 4u /* rays that count for a point that tiles gave up */
+#define FEW_POINTS 256u /* fewer go through a BVH if there is one */
 
 static uint64_t read(const _Atomic uint64_t *number) { return atomic_load_explicit(number, memory_order_relaxed); }
 
@@ -83,6 +82,6 @@ cgt_result cgt_light_settle(const cgt_scene *s, cgt_trace_settings *settings, co
     settings->light_tiles = false;
     if (settings->use_bvh)
         return CGT_OK;
-    return cgt_bvh_build_on_demand(s, leaves && left ? left : SCATTERED_POINTS * read(&choice->given_up),
+    return cgt_bvh_build_on_demand(s, leaves && left ? left : CGT_LIGHT_SCATTERED_RAYS * read(&choice->given_up),
                                    &settings->use_bvh);
 }

@@ -20,6 +20,7 @@
 #define CGT_LIGHT_TREE_MOST 8.0   /* of a point that shares nothing */
 #define CGT_LIGHT_RAY_PRICE 40.0  /* a ray pays so much of a tree's price (builders/bvh/bvh_on_demand.h) */
 #define CGT_LIGHT_POINT_MOST 400u /* of a point by tiles: one ray at a time through the grid takes less */
+#define CGT_LIGHT_SCATTERED_RAYS 4u /* that count for a point which tiles gave up */
 
 /* A call's points against a light. */
 typedef struct cgt_light_account {

@@ -2,25 +2,23 @@
  * SPDX-License-Identifier: MIT
  *
  * See light_tasks.h. Tasks are neighbours in the frame or in the light's order, and the first ones tell what the others
- * take: so they come in steps of about the golden section, which shares no divisor with their number. */
+ * take: so they come in steps of about the golden section, which shares no divisor with their number. In bands they come
+ * one after another, since a task's scratch memory there goes by its running number. */
 #include "trace/light_tasks.h"
 
 #include <math.h>
 
 #define GIVEN_UP 0xffu      /* the first result of a task that tiles gave up, until it is traced otherwise */
-#define SCATTERED_POINTS 4u /* rays that count for a point that tiles gave up in bands */
 
 cgt_result cgt_check_light(cgt_context *c, const cgt_light *light)
 {
-    bool zero = true;
-    for (int a = 0; a < 3; a++) {
-        if (!isfinite(light->position[a]))
+    const float *const p = light->position;
+    for (int a = 0; a < 3; a++)
+        if (!isfinite(p[a]))
             return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "light: its position is not finite");
-        zero = zero && light->position[a] == 0;
-    }
     if ((unsigned)light->kind > CGT_LIGHT_DIRECTIONAL)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "light: kind %d is unknown", (int)light->kind);
-    if (light->kind == CGT_LIGHT_DIRECTIONAL && zero)
+    if (light->kind == CGT_LIGHT_DIRECTIONAL && cgt_is_zero(p[0]) && cgt_is_zero(p[1]) && cgt_is_zero(p[2]))
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "light: a direction of length zero");
     return CGT_OK;
 }
@@ -145,7 +143,7 @@ static cgt_result run_bands(cgt_light_tasks *tasks)
     if (result == CGT_OK && given_up(tasks)) {
         call.by_tiles = false;
         tasks->again = true;
-        result = cgt_bands_build_bvh(&call, given_up(tasks) * SCATTERED_POINTS);
+        result = cgt_bands_build_bvh(&call, given_up(tasks) * CGT_LIGHT_SCATTERED_RAYS);
         if (result == CGT_OK)
             result = cgt_bands_run(&call, light_task, tasks, tasks->count);
     } else if (by_tiles)
@@ -156,7 +154,7 @@ static cgt_result run_bands(cgt_light_tasks *tasks)
 
 cgt_result cgt_light_run(cgt_light_tasks *tasks)
 {
-    tasks->step = golden_step(tasks->count);
+    tasks->step = tasks->scene->in_bands ? 1 : golden_step(tasks->count); /* slots of bands go by running numbers */
     tasks->again = false;
     tasks->bands = NULL;
     return tasks->scene->in_bands ? run_bands(tasks) : run_structure(tasks);

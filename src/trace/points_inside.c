@@ -12,7 +12,7 @@
 
 #define LISTS 512u                 /* that are filled together */
 #define LIST_HITS 16u              /* of a ray at a time */
-#define WINDOW (UINT32_C(1) << 16) /* geometries whose sums a ray fills; more take more rays */
+#define WINDOW (UINT32_C(1) << 14) /* geometries whose sums a ray fills; more take more rays */
 
 static const cgt_inside_options default_inside;
 
@@ -42,6 +42,7 @@ typedef struct inside_point {
 typedef struct inside_chunk {
     const inside_job *job;
     ray_source source;
+    bool use_bvh;
     bool direct;         /* spheres are looked up */
     inside_point *point; /* that are asked for together */
     cgt_hit_list *list;  /* of each */
@@ -202,6 +203,7 @@ static void begin_point(inside_chunk *c, uint64_t i)
     if (farthest >= RAY_NOT_FINITE || is_beyond(s, p->ray.line.org))
         return;
     choose_direction(s, p->ray.line.org, p->ray.line.dir);
+    c->counts->bvh_rays += c->use_bvh;
     c->points++;
 }
 
@@ -214,6 +216,7 @@ static void inside_task(void *argument, uint32_t index, cgt_scratch *scratch)
                    end = first + (left < CGT_RAYS_CHUNK ? left : CGT_RAYS_CHUNK);
     inside_chunk c = {.job = job,
                       .source = ray_source_init(&job->points, NULL),
+                      .use_bvh = cgt_lists_use_bvh(job->scene, &job->settings, &job->bands),
                       .direct = !job->scene->in_bands && job->settings.use_bvh,
                       .sums = arrays < WINDOW ? arrays : WINDOW,
                       .counts = &counts};

@@ -64,6 +64,7 @@ typedef struct all_chunk {
     cgt_listed_hit *hit;
     uint32_t lists, room; /* lists in use, and how many there may be */
     uint32_t of_list;     /* hits that there is room for in each */
+    bool use_bvh;
     cgt_counts *counts;
 } all_chunk;
 
@@ -234,6 +235,7 @@ static void begin_ray(all_chunk *c, uint64_t i)
         end_ray(c, i, 0, false);
         return;
     }
+    c->counts->bvh_rays += c->use_bvh;
     begin_list(c, ray, list);
     c->lists++;
 }
@@ -275,6 +277,7 @@ static void trace_chunk(void *argument, uint32_t index, cgt_scratch *scratch)
                    .list = cgt_scratch_take(scratch, MOST_LISTS * sizeof(cgt_hit_list)),
                    .hit = cgt_scratch_take(scratch, LIST_MEMORY * sizeof(cgt_listed_hit)),
                    .of_list = rows && rows->capacity < LIST_HITS ? rows->capacity : LIST_HITS,
+                   .use_bvh = cgt_lists_use_bvh(job->scene, &job->settings, &job->bands),
                    .counts = &counts};
     c.room = LIST_MEMORY / c.of_list < MOST_LISTS ? LIST_MEMORY / c.of_list : MOST_LISTS;
     c.batch->count = 0;

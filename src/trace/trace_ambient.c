@@ -312,7 +312,7 @@ static cgt_ambient_options with_defaults(const cgt_ambient_options *ambient)
     cgt_ambient_options_init(&defaults);
     a = ambient ? *ambient : defaults;
     a.samples = a.samples ? a.samples : defaults.samples;
-    a.radius = a.radius == 0 ? defaults.radius : a.radius;
+    a.radius = cgt_is_zero(a.radius) ? defaults.radius : a.radius;
     return a;
 }
 
@@ -324,7 +324,7 @@ static cgt_result check_ambient(cgt_context *c, const cgt_ambient_options *a, co
     if (a->first > UINT32_MAX - a->samples)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "ambient: first %u: beyond 2^32 - 1 with its %u samples",
                         a->first, a->samples);
-    if (!(a->radius > 0))
+    if (isnan(a->radius) || signbit(a->radius))
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "ambient: radius %g: 0 or more", (double)a->radius);
     if (!f->t || !f->primitive || !f->geometry || !f->normal[0])
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,

@@ -90,6 +90,37 @@ TEST(a_visitor_stops_the_trace)
     cgt_context_release(context);
 }
 
+static cgt_visit count_hits(void *user, uint64_t ray, const cgt_hit *hits, uint32_t count)
+{
+    (void)ray, (void)hits;
+    *(unsigned *)user += count;
+    return CGT_VISIT_CONTINUE;
+}
+
+/* However often its list is filled. */
+TEST(a_ray_counts_once)
+{
+    enum { SPHERES = 200 };
+    static float sphere[SPHERES][4];
+    static const float zero[1] = {0}, one[1] = {1};
+    const cgt_rays rays = {.count = 1, .org = {zero, zero, zero}, .dir = {one, zero, zero}};
+    const cgt_scene_options incoherent = {.rays = CGT_RAY_KIND_INCOHERENT};
+    cgt_trace_statistics statistics;
+    const cgt_trace_options options = {.statistics = &statistics};
+    unsigned hits = 0;
+    for (uint32_t i = 0; i < SPHERES; i++) {
+        sphere[i][0] = (float)(1 + i);
+        sphere[i][3] = 0.25f;
+    }
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = scene_of(context, &incoherent, (const float(*)[4])sphere, SPHERES);
+    assert_int_equal(cgt_visit_all_rays(scene, &rays, NULL, 0, count_hits, &hits, &options), CGT_OK);
+    assert_int_equal(hits, 2 * SPHERES);
+    assert_true(statistics.rays == 1 && statistics.bvh_rays == 1);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
 /* A hit to go on after that is none: the ray is invalid, and no other one is. */
 TEST(after_no_hit)
 {

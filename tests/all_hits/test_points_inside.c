@@ -20,12 +20,12 @@ static cgt_points points_of(float (*point)[3], uint32_t count)
 /* One more geometry than a ray sums up: tetrahedra side by side, oriented outwards. */
 TEST(many_geometries)
 {
-    enum { MANY = (1 << 16) + 1 };
+    enum { MANY = (1 << 16) + 1, POINTS = 64 /* enough for a stream, whose scratch comes on top */ };
     static const float corner[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     static const uint32_t face[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
     const cgt_inside_options how = {.rule = CGT_INSIDE_WINDING};
-    float(*many)[4][3] = malloc(MANY * sizeof *many), point[4][3];
-    uint8_t inside[4] = {9, 9, 9, 9};
+    float(*many)[4][3] = malloc(MANY * sizeof *many), point[POINTS][3];
+    uint8_t inside[POINTS];
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene;
     assert_non_null(many);
@@ -38,14 +38,21 @@ TEST(many_geometries)
             .count = 4, .indices = cgt_uint32s(face, 0), .vertices = cgt_floats(many[i][0], 0), .vertex_count = 4};
         assert_int_equal(cgt_scene_set_triangles(scene, NULL, &t), CGT_OK);
     }
-    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    for (uint32_t k = 0; k < 4; k++) /* in the first one and the last one, and beside them */
+    for (uint32_t k = 0; k < POINTS; k++) /* in the first one and the last one, and beside them */
         for (int a = 0; a < 3; a++)
-            point[k][a] = many[k & 1 ? MANY - 1 : 0][0][a] + 0.25f + (k & 2 && a == 2 ? 2 : 0);
-    const cgt_points points = points_of(point, 4);
-    assert_int_equal(cgt_points_inside(scene, &points, &how, inside, NULL), CGT_OK);
-    for (uint32_t k = 0; k < 4; k++)
-        assert_int_equal(inside[k], k < 2);
+            point[k][a] = many[k & 1 ? MANY - 1 : 0][0][a] + 0.25f + (k & 2 && a == 0 ? 0.5f : 0);
+    const cgt_points points = points_of(point, POINTS);
+    for (int rays = CGT_RAY_KIND_COHERENT; rays <= CGT_RAY_KIND_INCOHERENT; rays++) { /* without a BVH, and with one */
+        cgt_trace_statistics statistics;
+        const cgt_trace_options options = {.statistics = &statistics};
+        memset(inside, 9, sizeof inside);
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+        assert_int_equal(cgt_scene_prepare(scene, (cgt_ray_kind)rays), CGT_OK);
+        assert_int_equal(cgt_points_inside(scene, &points, &how, inside, &options), CGT_OK);
+        for (uint32_t k = 0; k < POINTS; k++)
+            assert_int_equal(inside[k], !(k & 2));
+        assert_int_equal(statistics.bvh_rays, rays == CGT_RAY_KIND_INCOHERENT ? POINTS : 0);
+    }
     cgt_scene_release(scene);
     cgt_context_release(context);
     free(many);

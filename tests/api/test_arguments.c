@@ -123,7 +123,8 @@ static const row rows[] = {
     /* missing arguments */
     NONE(TRACES | BOUNCE | PREPARE, const_scene, NULL),
     NONE(SPHERES | TRIANGLES | CAPSULES, scene, NULL),
-    NONE(FRAMES | PIXEL | RECTANGLE, camera_at, "NULL"),
+    NONE(FRAMES, camera_at, "NULL"),
+    NONE(PIXEL | RECTANGLE, camera_at, NULL), /* no context, no message */
     NONE(FRAMES, frame_at, "NULL"),
     NONE(ARRAYS | BOUNCE, rays_at, "NULL"),
     NONE(RAYS | BOUNCED | BOUNCE, hits_at, "NULL"),
@@ -136,8 +137,8 @@ static const row rows[] = {
     NONE(POINTS | INSIDE, points_at, "NULL"),
     NONE(POINTS | SHADOWS, light_at, "NULL"),
     NONE(OCCLUDED_RAYS | POINTS | SHADOWS | INSIDE, occluded, "NULL"),
-    NONE(PIXEL | RECTANGLE, org[1], "NULL"),
-    NONE(PIXEL | RECTANGLE, dir[0], "NULL"),
+    NONE(PIXEL | RECTANGLE, org[1], NULL),
+    NONE(PIXEL | RECTANGLE, dir[0], NULL),
     NONE(AMBIENT, visibility, "NULL"),
     NONE(SPHERES, spheres_at, "NULL"),
     NONE(TRIANGLES, triangles_at, "NULL"),
@@ -518,18 +519,22 @@ static cgt_result make_call(unsigned call, const arguments *a)
     return result;
 }
 
-static uint64_t sum_outputs(void)
+/* Fills what calls write to, and returns the sum of it; fill < 0: leaves it. */
+static uint64_t sum_outputs(int fill)
 {
     uint64_t sum = 0;
-    const unsigned char *const block[] = {(void *)plane,   (void *)hit,         (void *)visibility, (void *)ids,
+    unsigned char *const block[] = {(void *)plane,   (void *)hit,         (void *)visibility, (void *)ids,
                                           occluded,        (void *)bounced,     (void *)surface,    (void *)pixel,
                                           (void *)&single, (void *)surface_hit, (void *)hit_counts};
     const size_t bytes[] = {sizeof plane,    sizeof hit,         sizeof visibility, sizeof ids,
                             sizeof occluded, sizeof bounced,     sizeof surface,    sizeof pixel,
                             sizeof single,   sizeof surface_hit, sizeof hit_counts};
-    for (size_t k = 0; k < TEST_COUNT(block); k++)
+    for (size_t k = 0; k < TEST_COUNT(block); k++) {
+        if (fill >= 0)
+            memset(block[k], fill, bytes[k]);
         for (size_t i = 0; i < bytes[k]; i++)
             sum = sum * 31 + block[k][i];
+    }
     return sum;
 }
 
@@ -547,19 +552,20 @@ static cgt_scene *make_scene(cgt_context *context)
 
 static void check_row(const row *r, size_t number, unsigned call, cgt_context *context, cgt_scene *scene)
 {
-    const uint64_t outputs = sum_outputs();
+    const uint64_t outputs = sum_outputs(0x5a);
     cgt_trace_statistics statistics = {.rays = 55};
     arguments a;
     init_arguments(&a, context, scene);
     a.trace.statistics = &statistics;
     adapt(&a, r->offset, r->bytes);
     memcpy((char *)&a + r->offset, r->value, r->bytes);
+    assert_int_equal(cgt_scene_remove_geometry(scene, 4711), CGT_ERROR_INVALID_ARGUMENT); /* another message */
     const cgt_result result = make_call(call, &a);
     if (result != r->result)
         fail_msg("row %zu, call %u: %s", number, call, cgt_get_result_string(result));
     if (r->word && !strstr(context_message(context), r->word))
         fail_msg("row %zu, call %u: \"%s\" does not mention %s", number, call, context_message(context), r->word);
-    assert_true(sum_outputs() == outputs && statistics.rays == 55);
+    assert_true(sum_outputs(-1) == outputs && statistics.rays == 55);
     /* nothing has changed: the scene can still be traced */
     assert_true(ray_trace(scene, (truth_ray){{0, 0, 5}, {0, 0, -1}, 0, INFINITY}).t == 4);
 }

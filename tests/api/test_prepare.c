@@ -303,4 +303,26 @@ TEST(auto_learns_what_comes)
     }
 }
 
+/* A commit that fails for want of memory forgets nothing: the one that repeats it builds what it would have built. */
+TEST(auto_learns_over_a_failed_commit)
+{
+    const cgt_context_options options = {.threads = 1, .memory = {NULL, allocate, release}};
+    cgt_context *context = NULL;
+    assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
+    setting *s = open(context, NULL);
+    assert_int_equal(cgt_scene_set_options(s->scene, &(cgt_scene_options){0}), CGT_OK);
+    for (int frame = 0; frame < 2; frame++) {
+        assert_int_equal(cgt_scene_commit(s->scene), CGT_OK);
+        come(s, TRACE);
+    }
+    const cgt_spheres more = spheres_of((const float(*)[4])s->spheres.sphere, SPHERES);
+    assert_int_equal(cgt_scene_set_spheres(s->scene, NULL, &more), CGT_OK); /* so that it needs memory */
+    refuse = true;
+    assert_int_equal(cgt_scene_commit(s->scene), CGT_ERROR_OUT_OF_MEMORY);
+    refuse = false;
+    assert_int_equal(cgt_scene_commit(s->scene), CGT_OK);
+    assert_int_equal(statistics_of(s->scene).structure, CGT_STRUCTURE_BVH);
+    close(s);
+}
+
 SEEDED_SUITE("test_prepare", NULL, NULL)

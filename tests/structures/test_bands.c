@@ -80,4 +80,34 @@ TEST(statistics_cover_bands)
     cgt_context_release(context);
 }
 
+/* Tasks that run at once have scratch memory of their own, in whatever order they come. */
+TEST(lights_through_bands_from_threads)
+{
+    enum { CLOUD = 500, STRAYS = 5, POINTS = 10 * CGT_RAYS_CHUNK };
+    static float sphere[CLOUD][4], place[3][POINTS];
+    static uint8_t occluded[2][POINTS];
+    test_random r = random_make(79);
+    for (uint32_t i = 0; i < CLOUD; i++) {
+        for (int a = 0; a < 3; a++)
+            sphere[i][a] = random_float(&r, -1, 1) * (i < STRAYS ? 0x1p62f : 1);
+        sphere[i][3] = 0.1f;
+    }
+    for (uint32_t i = 0; i < POINTS; i++)
+        for (int a = 0; a < 3; a++)
+            place[a][i] = random_float(&r, -1, 1);
+    const cgt_points points = {.count = POINTS, .position = {place[0], place[1], place[2]}};
+    const cgt_light lights[] = {{.position = {0.5f, 0, 0}}, {.kind = CGT_LIGHT_DIRECTIONAL, .position = {1, 2, 3}}};
+    for (size_t k = 0; k < TEST_COUNT(lights); k++) {
+        for (uint32_t threads = 0; threads < 2; threads++) {
+            cgt_context *context = context_make(threads ? 4 : 1, NULL);
+            cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])sphere, CLOUD);
+            assert_true(scene->in_bands);
+            assert_int_equal(cgt_occluded_points(scene, &lights[k], &points, occluded[threads], NULL), CGT_OK);
+            cgt_scene_release(scene);
+            cgt_context_release(context);
+        }
+        assert_memory_equal(occluded[0], occluded[1], POINTS);
+    }
+}
+
 SEEDED_SUITE("test_bands", NULL, NULL)

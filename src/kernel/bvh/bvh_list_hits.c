@@ -225,7 +225,6 @@ void CGT_KERNEL(cgt_list_hits)(const cgt_committed_scene *committed_scene, bool 
 {
     if (!committed_scene->valid)
         return;
-    counts->bvh_rays += use_bvh ? count : 0;
     if (!use_bvh || committed_scene->brute_force) { /* another thread may be building the tree */
         CGT_KERNEL(cgt_list_unusual)(committed_scene, use_bvh, lists, count, counts);
         return;

@@ -93,6 +93,12 @@ static bool is_own(const bounce_job *job, uint64_t i, const bounce_input *in)
            (r->skip_geometry ? ray_number(&job->source, r->skip_geometry, i) : 0) == in->geometry;
 }
 
+/* One of radius 0 has none: a place has no normal there. */
+static bool has_surface(const cgt_primitive *p)
+{
+    return p->kind == CGT_KIND_TRIANGLES || (p->kind == CGT_KIND_SPHERES ? p->sphere.r : p->capsule.r) > 0.0f;
+}
+
 static bounce_state read_input(const bounce_job *job, uint64_t i, bounce_input *in)
 {
     const cgt_rays *r = job->rays;
@@ -112,6 +118,8 @@ static bounce_state read_input(const bounce_job *job, uint64_t i, bounce_input *
         !read_media(&job->media, i, in))
         return BOUNCE_INVALID;
     in->prim = cgt_primitives_get(prims, number);
+    if (!has_surface(&in->prim))
+        return BOUNCE_INVALID;
     if (is_own(job, i, in)) /* whichever root the rounding of t is nearer to */
         in->t = INFINITY;
     return BOUNCE_HIT;

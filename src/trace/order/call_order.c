@@ -232,7 +232,6 @@ cgt_result cgt_call_order_init(cgt_call_order *o, const cgt_scene *scene, const 
     sum_up(&job, blocks, o);
     o->number = job.number;
     o->as_given = coherent && o->live == points->count;
-    o->is_sorted = !coherent;
     if (!o->as_given)
         cgt_run_tasks(scene->context, place_block, &job, blocks);
     return CGT_OK;

@@ -16,8 +16,7 @@ typedef struct cgt_call_order {
     cgt_buffer memory;      /* of the context */
     const uint32_t *number; /* of the live points, in their order */
     uint32_t live, invalid;
-    bool as_given;  /* all are live, and chunks of them lie close together as they are */
-    bool is_sorted; /* they were not close together, and now are */
+    bool as_given; /* all are live, and chunks of them lie close together as they are */
 } cgt_call_order;
 
 /* Orders the points, at most CGT_ORDERED_POINTS. OUT_OF_MEMORY, with a message: then there is nothing to release. */

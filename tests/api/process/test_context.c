@@ -42,6 +42,12 @@ static cgt_context_options logged_options(log_record *log)
     return options;
 }
 
+static void never_run(void *argument, uint32_t index)
+{
+    (void)argument;
+    fail_msg("task %u runs", index);
+}
+
 static void expect_refused(const cgt_context_options *options, log_record *log, cgt_result expected, const char *word)
 {
     cgt_context *context = (cgt_context *)(void *)log; /* anything but NULL */
@@ -55,6 +61,7 @@ static void expect_refused(const cgt_context_options *options, log_record *log, 
         assert_int_equal(cgt_scene_create(context, NULL, &scene), expected);
         assert_string_equal(cgt_context_get_variant(context), "");
         assert_int_equal(cgt_context_get_threads(context), 0);
+        assert_int_equal(cgt_context_run_tasks(context, never_run, NULL, 1), expected);
         cgt_context_release(context);
     } else {
         assert_int_equal(expected, CGT_ERROR_OUT_OF_MEMORY);
@@ -63,6 +70,13 @@ static void expect_refused(const cgt_context_options *options, log_record *log, 
     assert_false(log->bad_line);
     if (!strstr(log->last, word))
         fail_msg("\"%s\" does not mention %s", log->last, word);
+}
+
+static void run_one(void *user, cgt_task *task, void *argument, uint32_t count)
+{
+    (void)user;
+    for (uint32_t i = 0; i < count; i++)
+        task(argument, i);
 }
 
 static void *never_allocate(void *user, size_t bytes, size_t alignment)
@@ -89,6 +103,11 @@ TEST(bad_options_are_refused)
     options = logged_options(&log);
     options.threads = 1025;
     expect_refused(&options, &log, CGT_ERROR_INVALID_ARGUMENT, "threads");
+    options.tasks.run = run_one; /* then the number is ignored */
+    cgt_context *context = NULL;
+    assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
+    assert_int_equal(cgt_context_get_threads(context), 0);
+    cgt_context_release(context);
     options = logged_options(&log);
     options.memory.allocate = never_allocate;
     expect_refused(&options, &log, CGT_ERROR_INVALID_ARGUMENT, "memory");

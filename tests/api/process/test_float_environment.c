@@ -309,4 +309,40 @@ TEST(every_task_computes_the_same_bits)
     }
 }
 
+/* A denormal is not 0, whatever the caller's environment makes of it: a range's end, a light's direction, a radius. */
+TEST(denormal_arguments_are_not_zero)
+{
+    static const float ball[1][4] = {{0, 0, 3, 1}}, zero[1] = {0};
+    const cgt_single_ray ray = {.dir = {0, 0, 1}, .t_max = 0x1p-140f};
+    const cgt_light light = {.kind = CGT_LIGHT_DIRECTIONAL, .position = {0, 0, 0x1p-140f}};
+    const cgt_points points = {.count = 1, .position = {zero, zero, zero}};
+    const cgt_ambient_options ambient = {.radius = 0x1p-140f};
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = scene_of(context, NULL, ball, 1);
+    for (size_t k = 0; k < TEST_COUNT(environments); k++) {
+        float t[1], normal[3][1], visibility[1] = {0};
+        uint32_t primitive[1], geometry[1], count = 9;
+        uint8_t occluded = 9;
+        cgt_hit hit[4];
+        cgt_camera camera;
+        cgt_frame frame;
+        callers_environment before;
+        cgt_camera_init(&camera);
+        cgt_frame_init(&frame, 1, 1);
+        frame.t = t, frame.primitive = primitive, frame.geometry = geometry;
+        for (int a = 0; a < 3; a++)
+            frame.normal[a] = normal[a];
+        enter(&environments[k], &before);
+        const cgt_result all = cgt_trace_all_ray(scene, &ray, NULL, hit, 4, &count, NULL, NULL);
+        const cgt_result lit = cgt_occluded_points(scene, &light, &points, &occluded, NULL);
+        const cgt_result drawn = cgt_trace_camera(scene, &camera, &frame, NULL);
+        const cgt_result open = cgt_ambient_occlusion(scene, &camera, &frame, &ambient, visibility, NULL);
+        leave(&before);
+        assert_true(all == CGT_OK && lit == CGT_OK && drawn == CGT_OK && open == CGT_OK);
+        assert_true(count == 0 && occluded == 1 && visibility[0] == 1);
+    }
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
 SEEDED_SUITE("test_float_environment", NULL, NULL)

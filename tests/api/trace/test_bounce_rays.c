@@ -487,4 +487,28 @@ TEST(invalid_rays_are_counted)
     close_bed(&b);
 }
 
+/* Points and segments are hit, but have no surface. */
+TEST(radius_0_has_no_surface)
+{
+    static const float point[1][4] = {{1, 1, 1, 0}}, end[2][3] = {{4, 0, 1}, {6, 0, 1}};
+    const cgt_capsules segment = {.count = 1, .vertex_count = 2, .vertices = cgt_floats(end[0], 0)};
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = scene_of(context, NULL, point, 1);
+    cgt_trace_statistics statistics;
+    row r[2] = {{.dir = {49, 49, 49}, .inside = 1.5f}, {.org = {5, -3, 1}, .dir = {0, 7, 0}, .inside = 1.5f}};
+    const cgt_rays rays = rays_of(r, 2);
+    const cgt_hits hits = row_hits(r);
+    assert_int_equal(cgt_scene_set_capsules(scene, NULL, &segment), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
+    bounce_rows(scene, r, 2, &statistics);
+    assert_true(statistics.hits == 0 && statistics.invalid_rays == 2);
+    for (int i = 0; i < 2; i++) {
+        assert_true(r[i].primitive == 0 && r[i].geometry == (uint32_t)i);
+        assert_true(r[i].out[0].t_max == -1 && r[i].out[1].t_max == -1 && r[i].length == 0);
+    }
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
 SEEDED_SUITE("test_bounce_rays", NULL, NULL)

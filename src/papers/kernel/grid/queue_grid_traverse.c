@@ -128,7 +128,7 @@ static void traverse_nested(traversal *v)
     for (uint32_t slice = f->first; slice < f->end; slice++) {
         const vec_int4 b = frustum_slice(f, slice);
         const uint32_t cell = slice_cell(v->grid, f, slice);
-        v->counts->slices++;
+        v->counts->slices += (b[0] <= b[1]) & (b[2] <= b[3]);
         for (int32_t y = b[2]; y <= b[3]; y++)
             for (int32_t x = b[0]; x <= b[1]; x++) {
                 visit_cell(v, cell + (uint32_t)y * stride[f->v] + (uint32_t)x * stride[f->u]);
@@ -161,7 +161,6 @@ static uint32_t find_slices(traversal *v, slice_cells *s)
         cells += nonempty ? (uint32_t)(across * down) : 0;
     }
     s[slices] = s[slices ? slices - 1 : 0]; /* read, not used, after the last cell */
-    v->counts->slices += slices;
     return cells;
 }
 
@@ -180,13 +179,16 @@ static void traverse_flattened(traversal *v)
         if (slice_ends | (v->pending >= BATCH_FULL)) {
             if (!slice_ends)
                 flush_pending(v);
-            else if (finish_slice(v, s->slice))
+            else if (finish_slice(v, s->slice)) {
+                v->counts->slices += (uint32_t)(next - slices);
                 return;
+            }
         }
         x = x_next;
         y = y_next;
         s = next;
     }
+    v->counts->slices += (uint32_t)(s - slices);
 }
 
 /* ---- packets ---- */
