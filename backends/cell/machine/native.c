@@ -71,6 +71,15 @@ void cgt_native_fail(cgt_native *native, cgt_mfc_rule rule, const char *format, 
 
 /* ---- channels ---- */
 
+/* After an access, and before a wait: others may have waited for what was done. */
+static void wake_others(cgt_cell *cell, bool posted)
+{
+    for (unsigned i = 0; i < cell->options.spes && !posted; i++)
+        posted = cell->spe[i].state == CGT_SPE_WAITS && !sleeps(&cell->spe[i]);
+    if (posted)
+        pthread_cond_broadcast(&cell->changed);
+}
+
 /* Sleeps until another program, or the PPE, has changed something. Under the lock. */
 static void wait_for_others(cgt_native *native, unsigned channel)
 {
@@ -83,6 +92,7 @@ static void wait_for_others(cgt_native *native, unsigned channel)
         cgt_cell_fail_deadlock(cell);
         pthread_cond_broadcast(&cell->changed);
     }
+    wake_others(cell, false);
     while (!cell->failed && cgt_mfc_get_changes(spe->mfc) == spe->changes)
         pthread_cond_wait(&cell->changed, &cell->lock);
     spe->state = CGT_SPE_RUNS;
@@ -101,15 +111,6 @@ static void stall(cgt_native *native, unsigned channel)
         cgt_cell_add_wait(spe, channel, next - native->clock);
         native->clock = next;
     }
-}
-
-/* after an access: others may have waited for what it did */
-static void wake_others(cgt_cell *cell, bool posted)
-{
-    for (unsigned i = 0; i < cell->options.spes && !posted; i++)
-        posted = cell->spe[i].state == CGT_SPE_WAITS && !sleeps(&cell->spe[i]);
-    if (posted)
-        pthread_cond_broadcast(&cell->changed);
 }
 
 static cgt_channel_status try_access(cgt_native *native, unsigned channel, bool writes, uint32_t *value)

@@ -90,7 +90,6 @@ static void end_context(cgt_spufs *s, unsigned spe)
     cgt_spufs_context *const c = &s->context[spe];
     cgt_spe_result *const result = &s->cell->spe[spe].result;
     const char *const reason = describe_end(c);
-    c->ended = true;
     if (reason) {
         cgt_cell_fail(s->cell, "SPE %u: at 0x%05x: %s", spe, (unsigned)c->pc, reason);
         return;

@@ -10,7 +10,8 @@
  *
  * Differs from the emulated ways: nothing is counted, no cycles, no DMA; a broken rule is what hardware makes of it, an
  * event with a sentence where it raises one; SPEs that wait for one another wait for ever. The outbound mailbox cannot
- * be waited for: it is looked at every millisecond, and with every interrupt.
+ * be waited for: it is looked at every millisecond, and with every interrupt; the other SPEs' local stores and signals
+ * (CGT_SPE_EA) are at no addresses, so programs that send to them do not run.
  *
  * Never run on a Cell. Tests put a machine of their own behind the two system calls. */
 #ifndef CGT_SPUFS_H

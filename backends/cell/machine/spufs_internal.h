@@ -26,7 +26,6 @@ typedef struct cgt_spufs_context {
     uint32_t pc;
     int status, error; /* of the run: the SPU's, or errno where that is -1 */
     uint32_t event;
-    bool ended; /* and the PPE knows */
     pthread_t thread;
 } cgt_spufs_context;
 

@@ -78,14 +78,16 @@ static cgt_channel_status give_command(cgt_mfc *mfc, uint32_t word)
     }
     const bool atomic = c.operation->kind == CGT_MFC_ATOMIC;
     if (atomic ? mfc->atomic_runs : mfc->queued == CGT_MFC_QUEUE) {
-        mfc->counts.queue_stalls += !mfc->queue_was_full;
-        mfc->queue_was_full = true;
+        mfc->counts.queue_stalls += !atomic && !mfc->queue_was_full;
+        mfc->queue_was_full |= !atomic;
         return CGT_CHANNEL_STALL;
     }
     mfc->queue_was_full = false;
     c.list = (uint32_t)c.ea; /* a list's address comes in the place of the lower half */
     if (!cgt_mfc_check_command(mfc, &c) || !cgt_mfc_watch_command(mfc, &c))
         return CGT_CHANNEL_ERROR;
+    if (atomic || c.operation->kind == CGT_MFC_LINE)
+        c.size = CGT_LINE_BYTES; /* MFC_Size does not count */
     memset(&mfc->parameters, 0, sizeof mfc->parameters);
     if (atomic)
         cgt_mfc_begin_atomic(mfc, &c);

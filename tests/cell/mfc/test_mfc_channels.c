@@ -192,6 +192,24 @@ TEST(stall_and_notify)
     assert_int_equal(world.trace.count, 3);
 }
 
+/* One whose last element notifies ends when it goes on. */
+TEST(last_element_notifies)
+{
+    world.memory[0] = 10;
+    set_element(0x800, true, 16, MEMORY_EA);
+    set_element(0x808, false, 16, 0xdead0000); /* not of the list */
+    must_give(0, 0x1000, 0x800, 8, 5, MFC_GETL_CMD);
+    expect(MFC_RdListStallStat, 1000, 1u << 5);
+    put(MFC_WrTagMask, 1000, 1u << 5);
+    put(MFC_WrTagUpdate, 1000, MFC_TAG_UPDATE_IMMEDIATE);
+    expect(MFC_RdTagStat, 1000, 0);
+    put(MFC_WrListStallAck, 1000, 5);
+    put(MFC_WrTagUpdate, 1000, MFC_TAG_UPDATE_ALL);
+    expect(MFC_RdTagStat, 3000, 1u << 5);
+    assert_int_equal(load32(0x1000), 10);
+    assert_int_equal(cgt_mfc_get_counts(world.mfc)->elements, 1);
+}
+
 /* ---- the rest ---- */
 
 TEST(other_channels)

@@ -59,7 +59,7 @@ static cgt_structure structure_of(unsigned k)
 static cgt_kd_frame_options make_options(test_random *r, unsigned k, cgt_structure structure)
 {
     static const cgt_kd_cache_size nodes[] = {{0}, {1, 1}, {4, 3}}, references[] = {{0}, {1, 2}, {2, 4}},
-                                   leaves[] = {{0}, {1, 0}, {2, 1}}, slots[] = {{0}, {1, 0}, {16, 8}, {8, 2}};
+                                   leaves[] = {{0}, {1, 0}, {2, 1}}, slots[] = {{0}, {1, 0}, {16, 8}, {8, 2}, {1, 10}};
     cgt_kd_frame_options o = {.cell = {.spes = 1 + k % 8, .function = kd_library_program(structure)}};
     o.cell.assignment = (cgt_assignment)(k % CGT_ASSIGNMENTS);
     o.cell.doubts_half = k & 2 ? 16 : 0;
@@ -68,7 +68,7 @@ static cgt_kd_frame_options make_options(test_random *r, unsigned k, cgt_structu
     o.nodes = nodes[random_bits(r) % 3];
     o.references = references[random_bits(r) % 3];
     o.leaves = leaves[random_bits(r) % 3];
-    o.triangles = slots[random_bits(r) % 4];
+    o.triangles = slots[random_bits(r) % 5];
     o.batch = (uint32_t)random_bits(r) % 33;
     o.prefetch = random_bits(r) & 1;
     return o;
@@ -338,6 +338,36 @@ TEST(memory_fails)
 {
     memory_fails_with(CGT_STRUCTURE_KD_ROPES);
     memory_fails_with(CGT_STRUCTURE_BIH);
+}
+
+/* The program knows no masks: a camera that hides something is refused. */
+TEST(masks_are_refused)
+{
+    test_random r = random_make(3018);
+    static uint32_t ids[4 * 4];
+    const cgt_kd_frame_output output = {.ids = ids};
+    const cgt_kd_frame_options o = {.cell = {.spes = 1, .function = kd_library_program(CGT_STRUCTURE_KD)}};
+    const cgt_memory_hooks hooks = {.allocate = fail_later, .release = count_free, .user = &(failing_memory){.left = 99}};
+    cgt_camera camera;
+    cgt_kd_scene image;
+    cgt_triangles t;
+    cgt_camera_init(&camera);
+    make_random(&r, 40, 0.5f);
+    kd_library q = kd_library_make(1, CGT_STRUCTURE_KD, CGT_KD_LAYOUT_AUTO);
+    uint32_t geometry = 0;
+    assert_true(cgt_scene_get_triangles(q.scene[0], geometry, &t));
+    t.mask = 1;
+    assert_int_equal(cgt_scene_set_triangles(q.scene[0], &geometry, &t), CGT_OK);
+    assert_int_equal(cgt_scene_commit(q.scene[0]), CGT_OK);
+    const cgt_scene *const scene = q.scene[0];
+    assert_int_equal(cgt_kd_scene_init(&image, &hooks, &scene, 1, cell_result.message), CGT_OK);
+    for (camera.mask = 1; camera.mask <= 2; camera.mask++) {
+        const cgt_result code = cgt_kd_frame_trace(&image, &camera, 4, 4, &o, &output, &cell_result);
+        assert_int_equal(code, camera.mask == 1 ? CGT_OK : CGT_ERROR_INVALID_ARGUMENT);
+    }
+    assert_non_null(strstr(cell_result.message, "mask"));
+    cgt_kd_scene_release(&image);
+    kd_library_release(&q);
 }
 
 TEST(odd_pictures_and_scenes)

@@ -19,23 +19,19 @@ static uint32_t element_lsa(uint32_t lsa, const cgt_mfc_element *e) { return (ls
 
 static uint32_t next_lsa(uint32_t lsa, const cgt_mfc_element *e) { return (lsa & ~15u) + ((e->size + 15u) & ~15u); }
 
-/* what an element that notifies ends */
-static bool ends_part(const cgt_mfc_command *c, const cgt_mfc_element *e) { return e->notify || c->end == c->size; }
-
 bool cgt_mfc_begin_list(cgt_mfc *mfc, cgt_mfc_command *c, uint64_t *bus_bytes)
 {
     uint32_t lsa = c->list_lsa;
-    cgt_mfc_element e;
+    cgt_mfc_element e = {.notify = false};
     *bus_bytes = 0;
-    c->end = c->done;
-    do {
+    /* behind a last element that notified there is nothing */
+    for (c->end = c->done; c->end < c->size && !e.notify; c->end += 8) {
         e = load_element(mfc, c->list + c->end);
         if (!cgt_mfc_check_element(mfc, c, &e, element_lsa(lsa, &e)))
             return false;
         *bus_bytes += e.size < mfc->timing.least_bytes ? mfc->timing.least_bytes : e.size;
         lsa = next_lsa(lsa, &e);
-        c->end += 8;
-    } while (!ends_part(c, &e));
+    }
     return true;
 }
 
@@ -46,7 +42,8 @@ bool cgt_mfc_end_list(cgt_mfc *mfc, cgt_mfc_command *c, cgt_mfc_record *record)
     const uint32_t end = c->end;
     bool notifies = false;
     c->end = c->done;
-    record->ea = (c->ea >> 32 << 32) | load_element(mfc, c->list + c->done).eal;
+    if (c->done < end)
+        record->ea = (c->ea >> 32 << 32) | load_element(mfc, c->list + c->done).eal;
     record->lsa = c->list_lsa;
     while (c->done < end) {
         const cgt_mfc_element e = load_element(mfc, c->list + c->done);

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "cell/ppe/kd/kd_frame_memory.h"
+#include "scene/scene.h"
 
 #define MOST_SCALED 0x1p80f /* of the eye, seen from the scene */
 
@@ -69,6 +70,15 @@ static const char *check_eye(const kd_frame *f)
     return NULL;
 }
 
+/* The program knows no masks. */
+static const char *check_masks(const kd_frame *f)
+{
+    for (uint32_t k = 0; k < f->scene->parts; k++)
+        if (cgt_primitives_masked_out(&f->scene->part[k].scene->committed_scene.prims, f->run.tables.rays.mask))
+            return "the camera's mask hides triangles of the scene, and the program knows no masks";
+    return NULL;
+}
+
 const char *cgt_kd_frame_check_options(const cgt_kd_frame_options *o)
 {
     const uint64_t x = o->tiles_x ? o->tiles_x : CGT_KD_TILES_EDGE, y = o->tiles_y ? o->tiles_y : CGT_KD_TILES_EDGE;
@@ -84,5 +94,7 @@ const char *cgt_kd_frame_check(const kd_frame *f)
     const char *wrong = check_caches(&f->image, f->scene->ropes, f->scene->bih);
     if (!wrong)
         wrong = check_secondary(f);
+    if (!wrong)
+        wrong = check_masks(f);
     return wrong ? wrong : check_eye(f);
 }

@@ -61,8 +61,8 @@ static __attribute__((noinline)) void grid_close_edges(uint32_t columns, uint32_
     const vec_uint4 lane = {0, 1, 2, 3}, across = spu_cmpgt(spu_splats(columns), lane);
     for (uint32_t y = 0; y < 4; y++) {
         const vec_uint4 inside = y < rows ? across : spu_splats(0u);
-        p->low[y] = spu_sel(spu_splats(-GRID_MOST), p->low[y], inside);
-        p->high[y] = spu_sel(spu_splats(-GRID_MOST), p->high[y], inside);
+        p->low[y] = spu_sel(spu_splats(GRID_CLOSED), p->low[y], inside);
+        p->high[y] = spu_sel(spu_splats(GRID_CLOSED), p->high[y], inside);
     }
 }
 

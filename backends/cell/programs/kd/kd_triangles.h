@@ -81,7 +81,7 @@ static inline void kd_triangles_bring(const uint32_t *id, uint32_t count, uint32
         kd_triangle_entry *const e = &entry[id[k] & mask];
         uint32_t fetch = e->fetch;
         /* fetches since `oldest` keep their places; the difference is right across 2^32 */
-        if (__builtin_expect((e->id != id[k]) | (fetch - oldest > next - oldest - 1), 0)) {
+        if (__builtin_expect((e->id != id[k]) | (fetch - oldest >= next - oldest), 0)) {
             uint32_t *const element = s()->list[buffer][next - from];
             if (__builtin_expect(id[k] >= s()->frame.triangle_count, 0))
                 kd_break(); /* what comes in its place is not used */

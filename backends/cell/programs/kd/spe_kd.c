@@ -79,8 +79,8 @@ static __attribute__((noinline)) void kd_add_doubt(uint32_t i, uint32_t object)
     const cgt_kd_info *const tile = s()->tile;
     const uint32_t ray =
         tile ? (tile[i / 4].y + i % 4 / 2) << 16 | (tile[i / 4].x + i % 2) : CGT_KD_SECONDARY | (s()->ray_number + i);
-    if (!tile && s()->doubts.half_doubts + 1 == s()->doubts.capacity)
-        kd_wait(3u << TAG_SECONDARY0); /* the PPE reads the rays of doubts that it is told of */
+    if (s()->doubts.half_doubts + 1 == s()->doubts.capacity)
+        kd_wait(3u << TAG_SECONDARY0); /* the PPE reads the rays of doubts that it is told of: some may be secondary */
     spe_doubts_add(&s()->doubts, ray, object);
 }
 
