@@ -33,7 +33,7 @@ bool kd_run_frame(kd_run *run, const cgt_kd_frame_options *options, const cgt_kd
 /* All SPEs together. */
 typedef struct sums {
     double node_fetches, reference_fetches, leaf_fetches, triangle_fetches; /* for each pixel */
-    double bytes;                                                           /* of all DMA, for each pixel */
+    double bytes;                                                           /* that DMA fetches, for each pixel */
     double waits, idle;                                                     /* percent of the cycles */
     double cycles; /* for each pixel, as if one SPE had done it all */
     uint64_t messages, commands;

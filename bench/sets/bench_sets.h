@@ -16,6 +16,7 @@
 /* What was measured of one way. */
 typedef struct sets_row {
     double *build_ms;               /* of each round */
+    int has_bvh;                    /* they include AUTO's BVH beside its grid */
     double *ms[BENCH_MOST_BATCHES]; /* the same of the current set, all calls */
     bench_counts count;             /* of the current set */
     uint64_t hits,

@@ -18,9 +18,13 @@ static int reserve(light_points *p, uint64_t most, uint32_t calls)
     p->memory = calloc((size_t)most + 1, sizeof(float[3]));
     for (int a = 0; a < 3; a++)
         p->position[a] = (float *)p->memory + (size_t)a * ((size_t)most + 1);
-    if (p->order == LIGHT_SKIPPING)
+    if (p->order == LIGHT_SKIPPING) {
         p->primitive = calloc((size_t)most + 1, sizeof *p->primitive);
-    return p->end && p->memory && (p->order != LIGHT_SKIPPING || p->primitive) ? 0 : -1;
+        p->offset = calloc((size_t)most + 1, sizeof *p->offset);
+    }
+    for (uint64_t i = 0; p->offset && i < most; i++)
+        p->offset[i] = 1e-4f; /* of the way to a light with a place */
+    return p->end && p->memory && (p->order != LIGHT_SKIPPING || (p->primitive && p->offset)) ? 0 : -1;
 }
 
 static void add_tile(const light_scene *s, uint32_t tile, light_points *p)
@@ -144,5 +148,6 @@ void light_points_release(light_points *points)
     free(points->memory);
     free(points->end);
     free(points->primitive);
+    free(points->offset);
     memset(points, 0, sizeof *points);
 }

@@ -29,7 +29,8 @@ typedef struct light_points {
     light_order order;
     uint64_t count;
     float *position[3];
-    uint32_t *primitive; /* SKIPPING alone: that they skip */
+    uint32_t *primitive; /* SKIPPING alone: that they skip, */
+    float *offset;       /* and where Embree's rays begin in place of that */
     uint64_t *end;       /* of each call */
     uint32_t calls;
     void *memory;

@@ -124,8 +124,10 @@ static int run_order(sets_job *job, const light_scene *scene, light_order order)
 {
     static const uint64_t all = UINT64_MAX;
     light_points points;
+    cgt_rays embree = {.count = 0};
     if (light_points_make(scene, order, &points))
         return sets_out_of_memory();
+    embree.t_min = points.offset; /* it skips no primitive */
     int code = PROGRAM_OK;
     for (int place = 0; place < PLACES && code == PROGRAM_OK; place++) {
         cgt_light light[MOST_LIGHTS];
@@ -137,6 +139,7 @@ static int run_order(sets_job *job, const light_scene *scene, light_order order)
                                .rays = {.count = points.count,
                                         .org = {points.position[0], points.position[1], points.position[2]},
                                         .skip_primitive = points.primitive},
+                               .embree = points.offset ? &embree : NULL,
                                .light = light,
                                .lights = place_lights(scene, place, light),
                                .end = points.end,

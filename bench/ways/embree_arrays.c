@@ -177,8 +177,35 @@ static void trace_task(void *argument, uint32_t index)
     float_mode_restore(callers);
 }
 
+/* A ray as a program casts it that has one: by Embree's call, without tasks. */
+static void trace_one(const embree_arrays *a, const cgt_rays *ray, uint8_t *occluded)
+{
+    struct RTCIntersectContext context;
+    const float far = ray->t_max ? *ray->t_max : INFINITY;
+    struct RTCRayHit h = {.ray = {.org_x = *ray->org[0],
+                                  .org_y = *ray->org[1],
+                                  .org_z = *ray->org[2],
+                                  .tnear = ray->t_min ? *ray->t_min : 0,
+                                  .dir_x = *ray->dir[0],
+                                  .dir_y = *ray->dir[1],
+                                  .dir_z = *ray->dir[2],
+                                  .tfar = far,
+                                  .mask = UINT32_MAX},
+                          .hit = {.primID = UINT32_MAX, .geomID = UINT32_MAX, .instID = {UINT32_MAX}}};
+    rtcInitIntersectContext(&context);
+    if (a->nearest)
+        rtcIntersect1(a->scene, &context, &h);
+    else
+        rtcOccluded1(a->scene, &context, &h.ray);
+    *occluded = h.ray.tfar < far;
+}
+
 void embree_arrays_trace(embree_arrays *a, const cgt_rays *batch, uint8_t *occluded)
 {
+    if (batch->count == 1 && !a->four) {
+        trace_one(a, batch, occluded);
+        return;
+    }
     a->batch = batch;
     a->occluded = occluded;
     cgt_context_run_tasks(a->context, trace_task, a, (uint32_t)((batch->count + PIECE - 1) / PIECE));

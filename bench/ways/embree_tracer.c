@@ -225,6 +225,10 @@ static int embree_commit(bench_tracer *t)
     t->held = s->count;
     rtcCommitGeometry(e->geometry);
     rtcCommitScene(e->scene);
+    struct RTCBounds bounds;
+    rtcGetSceneBounds(e->scene, &bounds);
+    memcpy(t->built.bounds_min, &bounds.lower_x, sizeof t->built.bounds_min);
+    memcpy(t->built.bounds_max, &bounds.upper_x, sizeof t->built.bounds_max);
     const enum RTCError error = rtcGetDeviceError(s->device);
     if (error != RTC_ERROR_NONE)
         program_error("Embree: error %d", (int)error);
