@@ -24,6 +24,13 @@ macro(cgt_optional_part part text what packages)
     endif()
 endmacro()
 
+# cgt_part_needs(PART other): PART is nothing without CGT_BUILD_<other>, which is not there.
+function(cgt_part_needs part other)
+    if(CGT_BUILD_${part} AND NOT CGT_BUILD_${part} STREQUAL "AUTO")
+        message(FATAL_ERROR "CGT_BUILD_${part} is ${CGT_BUILD_${part}} and needs CGT_BUILD_${other}, which is left out")
+    endif()
+endfunction()
+
 # cgt_import(target header library): an imported target from a header and a library, if both are there.
 function(cgt_import target header library)
     string(MAKE_C_IDENTIFIER "${library}" name)

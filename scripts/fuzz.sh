@@ -6,10 +6,11 @@
 # SECONDS: 600, of CPU; TARGET: scene, hits, cliffs, cell, cell_kd, spe, trajectory, formats, mesh; without any: all.
 # Builds the fuzz targets of tests/fuzz with clang, libFuzzer and the address and undefined-behaviour sanitizers in
 # build/fuzz, and runs one after another for the given time each, from the corpus of the repository. What is found new
-# goes to build/fuzz/corpus; an input that fails goes to build/fuzz/findings, and ends the run with exit code 1. What a
-# target was run for is kept in build/fuzz/TARGET.seconds: a run that was stopped goes on, one of other code starts anew.
-#   again       build/fuzz/fuzz/fuzzer_scene build/fuzz/findings/crash-...
-#   smaller     build/fuzz/fuzz/fuzzer_scene -minimize_crash=1 -runs=10000 build/fuzz/findings/crash-...
+# goes to build/fuzz/corpus; an input that fails goes to build/fuzz/findings, ends the run with exit code 1, and is tried
+# first the next time, until it is right or removed. What a target was run for is kept in build/fuzz/TARGET.seconds: a run
+# that was stopped goes on, one of other code starts anew.
+#   again       build/fuzz/fuzz/fuzzer_scene build/fuzz/findings/scene-crash-...
+#   smaller     build/fuzz/fuzz/fuzzer_scene -minimize_crash=1 -runs=10000 build/fuzz/findings/scene-crash-...
 #   to keep     build/fuzz/fuzz/fuzzer_scene -merge=1 tests/fuzz/corpus/scene build/fuzz/corpus/scene
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -41,23 +42,30 @@ count_seconds() {
                                          END { printf "%d\n", sum }')
 }
 
-revision=$(scripts/code_hash.sh 2>/dev/null || echo none)
+revision=$(scripts/code_hash.sh)
 slice=300 # seconds of a run of the fuzzer, after which the account is written
 status=0
 for target in "${targets[@]}"; do
     found=$build/corpus/$target account=$build/$target.seconds
     mkdir -p "$found"
-    spent=0
-    [ ! -f "$account" ] || read -r spent of <"$account"
-    [ "${of:-}" = "$revision" ] && [ "$spent" -lt "$seconds" ] || spent=0
+    spent=0 of='' runs=0
+    [ ! -f "$account" ] || read -r spent of runs <"$account"
+    [ "$of" = "$revision" ] && [ "$spent" -lt "$seconds" ] || spent=0 runs=0
+    for finding in "$build/findings/$target"-*; do
+        if [ -e "$finding" ] && ! $build/fuzz/fuzzer_"$target" "$finding" >"$build/$target.log" 2>&1; then
+            tail -n 60 "$build/$target.log"
+            echo "$target: $finding fails"
+            status=1
+            continue 2
+        fi
+    done
     echo "==== $target: $((seconds - spent)) s of CPU"
-    runs=0
     while [ "$spent" -lt "$seconds" ]; do
         left=$((seconds - spent))
         count_seconds
         before=$used
         options=(-max_total_time=$((left < slice ? left : slice)) -max_len=2048 -timeout=20 -rss_limit_mb=2048
-                 -print_final_stats=1 -artifact_prefix="$build/findings/")
+                 -print_final_stats=1 -artifact_prefix="$build/findings/$target-")
         [ ! -f "tests/fuzz/$target.dict" ] || options+=(-dict="tests/fuzz/$target.dict")
         if ! $build/fuzz/fuzzer_"$target" "${options[@]}" "$found" "tests/fuzz/corpus/$target" \
             >"$build/$target.log" 2>&1; then
@@ -68,7 +76,7 @@ for target in "${targets[@]}"; do
         count_seconds
         spent=$((spent + used - before))
         runs=$((runs + $(sed -nE 's/^stat::number_of_executed_units: *//p' "$build/$target.log")))
-        echo "$spent $revision" >"$account"
+        echo "$spent $revision $runs" >"$account"
     done
     echo "$target: $runs inputs in $spent s of CPU"
 done

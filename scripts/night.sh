@@ -14,7 +14,8 @@
 #   soak           build/release/tests/soak: pictures for hours (SOAK_SECONDS=7200)
 #   --left         prints the parts that are left
 #   --row          appends what was run to docs/reports/nights.md, a row
-# build/night/PART.log has what a part printed, build/night/parts.tsv what came out. Exit code 1: some part failed.
+# build/night/PART.log has what a part printed, build/night/parts.tsv what came out: passed, failed, skipped (nothing of it
+# can run here) or short (of fewer seconds than above). Exit code 1: some part failed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 night=build/night account=build/night/parts.tsv table=docs/reports/nights.md
@@ -25,6 +26,7 @@ targets=(scene hits cliffs cell cell_kd spe trajectory formats mesh)
 parts=("${suites[@]/#/suite-}" cpu-avx512 "cpu-avx512,avx2" cpus-4 cpus-64 bugs "${targets[@]/#/fuzz-}" soak)
 
 [ -z "$(git status --porcelain)" ] || { echo "night.sh: commit first: a night is of a revision" >&2; exit 2; }
+head=$(git rev-parse HEAD)
 revision=$(git log -1 --format=%H -- . ":!$table") # the row of a night is no other revision
 mkdir -p $night
 touch $account
@@ -34,13 +36,16 @@ tree=$(git ls-tree -r HEAD -- . | grep -v "$table" | sha256sum | cut -c 1-12)
 code=$(scripts/code_hash.sh)
 files_of() { [[ $1 = suite-* ]] && echo "$tree" || echo "$code"; }
 
+# Files that change meanwhile would be accounted as those of the begin.
+is_as_begun() { [ -z "$(git status --porcelain)" ] && [ "$(git rev-parse HEAD)" = "$head" ]; }
+
 # The account of these files: this machine's, and that of the table's rows.
 lines() { awk -F '\t' -v tree="$tree" -v code="$code" '$5 == (/^suite-/ ? tree : code)' $account; }
 lines_of_rows() {
     awk -F ' [|] ' -v tree="$tree" -v code="$code" '
         { split($3, files, /[` ]+/); count = split($5, ran, /; /) }
         { for (k = 1; k <= count; k++) if ((ran[k] ~ /^suite-/ ? files[3] == tree : files[2] == code)) {
-              split(ran[k], part, /[: ]/); print part[1] "\t" (ran[k] ~ / FAILED: / ? "failed" : "passed") } }' $table
+              split(ran[k], part, /[: ]/); print part[1] "\t" (ran[k] ~ /^[^ ]+ [A-Z]+: / ? tolower(part[2]) : "passed") } }' $table
 }
 result_of() { (lines_of_rows; lines) | awk -F '\t' -v part="$1" '$1 == part { result = $2 } END { print result }'; }
 is_part() { [[ " ${parts[*]} " == *" $1 "* ]]; }
@@ -78,11 +83,10 @@ case ${1:-} in
     exit ;;
 --row)
     cpu=$(sed -nE 's/^model name[[:space:]]*: *//p' /proc/cpuinfo | head -n 1)
-    ran=$(lines | awk -F '\t' '{ result[$1] = $1 (($2 == "passed") ? "" : " FAILED") ": " $4 " (" $3 " s)" }
+    ran=$(lines | awk -F '\t' '{ result[$1] = $1 (($2 == "passed") ? "" : " " toupper($2)) ": " $4 " (" $3 " s)" }
                        END { for (part in result) print result[part] }' | sort | paste -sd ';' | sed 's/;/; /g')
-    found=$(lines | awk -F '\t' '{ result[$1] = $2 } END { for (part in result) bad += result[part] != "passed"
-                         print bad + 0 }')
-    left=$("$0" --left | paste -sd ' ')
+    found=$(lines | awk -F '\t' '$2 == "failed" { bad[$1] } END { print length(bad) }') # also where it passed later
+    left=$(scripts/night.sh --left | paste -sd ' ')
     # shellcheck disable=SC2016 # those are Markdown's
     printf '| %s | `%s` | `%s %s` | %s, %s cores | %s | %s | %s |\n' "$(date +%F)" "${revision:0:12}" "$code" "$tree" \
         "$cpu" "$(nproc)" "$ran" \
@@ -100,8 +104,15 @@ for part in "${@:-${parts[@]}}"; do
     [ "$(result_of "$part")" != passed ] || { echo "night.sh: $part: passed before"; continue; }
     echo "night.sh: $part, $(date '+%F %T')"
     start=$SECONDS result=passed
+    is_as_begun || { echo "night.sh: the files have changed: begin again" >&2; exit 2; }
     run_part "$part" >"$night/$part.log" 2>&1 </dev/null || result=failed
-    [ $result = passed ] || status=1
+    is_as_begun || { echo "night.sh: $part: the files have changed meanwhile" >&2; exit 2; }
+    case $result-$part in
+    failed-*) status=1 ;;
+    *-fuzz-*) [ "$fuzz_seconds" -ge 3600 ] || result=short ;;
+    *-soak) [ "$soak_seconds" -ge 7200 ] || result=short ;;
+    *) [[ $(amount_of "$part") != '0 passed'* ]] || result=skipped ;;
+    esac
     printf '%s\t%s\t%d\t%s\t%s\n' "$part" $result $((SECONDS - start)) "$(amount_of "$part")" \
         "$(files_of "$part")" >>$account
     echo "night.sh: $part: $result, $((SECONDS - start)) s; $(amount_of "$part")"

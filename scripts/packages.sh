@@ -4,7 +4,7 @@
 #
 # packages.sh [--twice] [--test]
 # Makes the Debian packages of the last commit from its tarball (release.sh), in build/packages, and checks them: lintian
-# finds neither errors nor warnings. --twice builds them again in another folder and compares the bytes. --test, as root,
+# finds neither errors nor warnings. --twice builds them again in another folder and compares the bytes. --test, as root or by sudo,
 # runs the tests of packaging/debian/tests by autopkgtest on this machine, which installs the packages and what they
 # need, and removes the packages again. Nothing is signed.
 # Needs what control says and devscripts' tools: scripts/dependencies.sh build render tests packages.
@@ -56,12 +56,13 @@ if [ $twice = yes ]; then
     echo "packages.sh: two builds in two folders have the same bytes"
 fi
 if [ $tests = yes ]; then
-    status=0
-    autopkgtest --no-built-binaries --output-dir "$top/autopkgtest" "$top"/first/*.deb "$top/first/libcgt-$version" -- null \
+    status=0 root=()
+    [ "$(id -u)" = 0 ] || root=(sudo)
+    "${root[@]}" autopkgtest --no-built-binaries --output-dir "$top/autopkgtest" "$top"/first/*.deb "$top/first/libcgt-$version" -- null \
         >"$top/autopkgtest.log" 2>&1 || status=$?
     for package in "$top"/first/*.deb; do
         dpkg-query -W -f '${Package} ${db:Status-Status}\n' "$(dpkg-deb -f "$package" Package)" 2>/dev/null || true
-    done | awk '$2 == "installed" { print $1 }' | xargs -r dpkg --purge >>"$top/autopkgtest.log" 2>&1
+    done | awk '$2 == "installed" { print $1 }' | xargs -r "${root[@]}" dpkg --purge >>"$top/autopkgtest.log" 2>&1
     cat "$top/autopkgtest/summary" || true
     [ $status -eq 0 ] || { echo "packages.sh: autopkgtest ended with $status; its log is $top/autopkgtest.log"; exit 1; }
 fi

@@ -61,4 +61,7 @@ case $version in 0.*) soname=${version%.*} ;; *) soname=${version%%.*} ;; esac
 ! head -n 1 NEWS | grep -q 'not released' || lacks "NEWS: $(head -n 1 NEWS)"
 ! head -n 1 packaging/debian/changelog | grep -q UNRELEASED || lacks "packaging/debian/changelog is UNRELEASED"
 [ -e "tests/repository/abi/$soname.abi" ] || lacks "its binary interface is not described: scripts/abi.sh --write"
+grep -q "^libcgt $version\b" <(head -n 1 NEWS) || lacks "NEWS begins with another version: $(head -n 1 NEWS)"
+head -n 1 packaging/debian/changelog | grep -qF "($version-" || lacks "packaging/debian/changelog is of another version"
+grep -qF "\"$version\"" packaging/vcpkg/*/vcpkg.json || lacks "vcpkg.json is of another version"
 [ $missing -gt 0 ] || echo "release.sh: $version can be released"

@@ -13,7 +13,7 @@ if command -v ccache >/dev/null; then
     export CMAKE_C_COMPILER_LAUNCHER=ccache
 fi
 cmake/toolchains/wasm_freetype.sh
-[ -e build/page/CMakeCache.txt ] || cmake --preset wasm -B build/page -DCGT_ONLY_LIBRARY=ON -DCGT_BUILD_TEXT=ON
+cmake --preset wasm -B build/page -DCGT_ONLY_LIBRARY=ON -DCGT_BUILD_TEXT=ON
 cmake --build build/page -j "$(nproc)" --target cgt-web
 
 out=build/web

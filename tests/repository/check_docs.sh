@@ -57,7 +57,8 @@ find src simd include backends bench figure programs examples tests -name '*.[ch
             rest = substr(rest, RSTART + RLENGTH)
         }
     }' "$work/files" - >>"$work/missing"
-! command -v python3 >/dev/null || python3 scripts/drawings.py --check >>"$work/missing" || true
+! command -v python3 >/dev/null || python3 scripts/drawings.py --check >>"$work/missing" 2>&1 ||
+    echo "scripts/drawings.py --check fails" >>"$work/missing"
 cat "$work/missing"
 [ ! -s "$work/missing" ] || exit 1
 echo "$(wc -l <"$work/texts") texts"

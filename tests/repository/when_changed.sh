@@ -10,6 +10,7 @@
 set -eu
 name=$1 source=$2 inputs=$3
 shift 3
+case $source in *' '*) exec "$@" ;; esac # INPUTs are split at blanks
 passed=${XDG_CACHE_HOME:-$HOME/.cache}/libcgt/passed
 mkdir -p "$passed"
 export LC_ALL=C
