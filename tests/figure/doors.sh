@@ -140,6 +140,7 @@ if [ -z "$emulator" ] && localedef -i de_DE -f UTF-8 "$tmp/de_DE.UTF-8" >/dev/nu
         'cut=0.5,0.5,0,7.5,9,9 text-size=0.055 time={time} title=A zoom=1.25'; do
         (cd "$tmp" && "$raw" COLUMNS grains.lammpstrj $options) >"$tmp/plain.rgb" 2>"$tmp/plain.err"
         (cd "$tmp" && german $options) >"$tmp/german.rgb" 2>"$tmp/german.err"
+        [ -s "$tmp/plain.rgb" ] || fail "no picture: $options: $(head -n 2 "$tmp/plain.err")"
         cmp -s "$tmp/plain.rgb" "$tmp/german.rgb" && cmp -s "$tmp/plain.err" "$tmp/german.err" ||
             fail "other bytes in a German locale: $options: $(head -n 2 "$tmp/german.err")"
     done

@@ -202,6 +202,8 @@ static void check_strides(driver_run *run, driver_view *w)
     f.t = t;
     for (int a = 0; a < 3; a++)
         f.normal[a] = normal + a;
+    memset(t, 0x5a, sizeof t); /* not the answers of the setup before */
+    memset(normal, 0x5a, sizeof normal);
     if (!driver_succeeds(run, cgt_trace_camera(run->setup.scene, &w->camera, &f, NULL), "cgt_trace_camera"))
         return;
     for (uint32_t i = 0; i < w->pixels; i++) {
@@ -229,6 +231,8 @@ static void check_rays(driver_run *run, driver_view *w)
                            .t_max = &r->line.t_max,
                            .mask = &r->mask};
     const test_trace_options options = {.kd_traversal = run->setup.way->traversal};
+    memset(hit, 0x5a, sizeof hit);
+    memset(occluded, 0x5a, sizeof occluded);
     if (!driver_succeeds(run, cgt_trace_rays(run->setup.scene, &rays, &hits, TRACE_OPTIONS(&options)),
                          "cgt_trace_rays") ||
         !driver_succeeds(run, cgt_occluded_rays(run->setup.scene, &rays, occluded, NULL), "cgt_occluded_rays"))

@@ -254,6 +254,7 @@ void driver_points_ask(driver_run *run, driver_view *w)
     test_trace_options o = driver_options(run, (cgt_precision)random_below(&run->scene.random, 2));
     uint64_t hits = 0;
     memset(occluded, 9, sizeof occluded);
+    memset(by_rays, 0x5a, sizeof by_rays);
     o.statistics = &statistics[0];
     if (!driver_succeeds(run, cgt_occluded_points(run->setup.scene, &w->light[0], &points, occluded, TRACE_OPTIONS(&o)),
                          "cgt_occluded_points"))

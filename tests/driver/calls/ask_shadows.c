@@ -92,6 +92,7 @@ static uint8_t shadow_of_frame[DRIVER_LIGHTS * DRIVER_PIXELS];
 static void check_shadows(driver_run *run, driver_view *w, const cgt_frame *frame)
 {
     memset(shadow_of_frame, 9, (size_t)DRIVER_LIGHTS * w->pixels);
+    memset(shadow_of_frame, 0x5a, sizeof shadow_of_frame); /* not the answers of the setup before */
     if (!driver_succeeds(run,
                          cgt_occluded_frame(run->setup.scene, &w->camera, frame, w->light, DRIVER_LIGHTS, &w->shadows,
                                             shadow_of_frame, NULL),
@@ -113,6 +114,7 @@ static void check_shadow_rays(driver_run *run, driver_view *w)
     static uint8_t occluded[DRIVER_PIXELS];
     const uint32_t k = random_below(&run->scene.random, DRIVER_LIGHTS);
     const cgt_rays rays = driver_ray_array(w->to_light[k], w->pixels);
+    memset(occluded, 0x5a, sizeof occluded);
     if (!driver_succeeds(run, cgt_occluded_rays(run->setup.scene, &rays, occluded, NULL), "cgt_occluded_rays"))
         return;
     run->count[COUNT_ANSWERS] += w->pixels;
@@ -172,6 +174,7 @@ static void check_spoilt(driver_run *run, driver_view *w)
     cgt_light light = w->light[0];
     cgt_trace_statistics by_frame, by_points;
     spoil(run, w, &s);
+    memset(want, 0x5a, sizeof want);
     const judge_ray *const p = s.point;
     if (light.kind == CGT_LIGHT_POINT && s.points)
         memcpy(light.position, p[random_below(&run->scene.random, s.points)].line.org, sizeof light.position);
@@ -262,6 +265,7 @@ static void find_ambient(driver_run *run, driver_view *w)
 static void check_ambient(driver_run *run, driver_view *w, const cgt_frame *frame)
 {
     static float visibility[DRIVER_PIXELS];
+    memset(visibility, 0x5a, sizeof visibility);
     if (!driver_succeeds(run, cgt_ambient_occlusion(run->setup.scene, &w->camera, frame, &w->ambient, visibility, NULL),
                          "cgt_ambient_occlusion"))
         return;

@@ -46,7 +46,8 @@ fi
 if command -v mpi-balls >/dev/null 2>&1; then
     [ -e balls_1.png ]
 fi
-[ "$ran" -ge 1 ] && [ $((ran + left)) -eq 7 ]
+[ $((ran + left)) -eq 7 ]
+[ "$ran" -ge 1 ] || exit 77
 
 if command -v lammps-live >/dev/null 2>&1; then
     # Four beads, two at either side of the boundary: three bonds as long as they should be, and nothing between.
