@@ -228,12 +228,12 @@ static double run_size(void)
     return size;
 }
 
-/* Looks at all frames, as cgt-render does, for colours and camera; of a large run at the first few. */
+/* Looks at all frames, as cgt-render does, for colours and camera; of a large run at the first few. Counts all. */
 static int survey_file(void)
 {
     const double large = 64 << 20; /* bytes */
     static const stop_flag never = 0;
-    survey_walk survey = {.most = run_size() > large ? 4 : UINT64_MAX, .quiet = 1, .stop = &never};
+    survey_walk survey = {.most = run_size() > large ? 4 : UINT64_MAX, .count = 1, .quiet = 1, .stop = &never};
     double origin[3];
     for (int turn = 0; turn < 2; turn++) {
         web.message[0] = '\0';
@@ -248,7 +248,7 @@ static int survey_file(void)
     }
     if (survey.is_cut)
         memcpy(web.doubt, web.message, sizeof web.message);
-    web.frames = survey.frames;
+    web.frames = survey.total;
     return survey.frames ? 0 : web_fail("the file has no frame");
 }
 
