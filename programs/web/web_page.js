@@ -584,7 +584,7 @@
             camera: () => {},
             described: () => {},
             progress: (m) => out.progress(m),
-            made: (m) => out.made(m),
+            made: (m) => { out.made(m); if (playing) setPlaying(true); }, // the engine has stopped
             settings: (m) => out.tell(m),
             loaded: (m) => {
                 panel.loaded(m);

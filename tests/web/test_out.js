@@ -175,6 +175,13 @@ async function testMovies(page, folder, out) {
         await settle(page);
         same(await pixels(page), before, 'what is shown afterwards');
     });
+    await test('a run goes on when a picture of it is saved', async () => {
+        await page.run(`document.getElementById('play').onclick()`);
+        await save(page, 'save-picture');
+        await page.until(`cgtPage.frame !== ${await page.run('cgtPage.frame')}`, 20);
+        assert.strictEqual(await page.run(`document.getElementById('play').textContent`), 'Pause');
+        await page.run(`document.getElementById('play').onclick()`);
+    });
     await test('a movie of an orbit plays', async () => {
         await fill(page, {'movie-kind': 'orbit', 'movie-as': 'movie'});
         await fill(page, {'movie-seconds': 1.5, 'movie-rate': 10, 'movie-degrees': 360, 'out-size': '321x200'});
