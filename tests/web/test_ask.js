@@ -231,6 +231,9 @@ async function testSelections(browser, address, out) {
         await page.run(`cgtPage.ask('seek', {frame: 1}, 'picture')`);
         assert((await eye()).every((x, c) => Math.abs(x - before[c]) < 1e-4), 'it is followed still');
         assert.match(await page.run(`cgtPage.ask('follow', {formula: 'x > 99'}).then((m) => m.text)`), /selects nothing/);
+        await page.run(`cgtPage.ask('follow', {formula: 'index < 2'})`); // in frame 1: what is read stays
+        await page.run(`cgtPage.ask('load', {name: 'a.settings', text: 'camera = 1,2,30,1,2,0,0,1,0,30'}, 'loaded')`);
+        assert.strictEqual(await camera(page), '1,2,30,1,2,0,0,1,0,30');
     });
     await test('picks go with their ids, and triangles have places', async () => {
         const of = (rows) => 'ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n' + rows.length + '\nITEM: BOX BOUNDS pp pp pp\n' +
