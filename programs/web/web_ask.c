@@ -96,7 +96,7 @@ static void place_of(const picked *p, float place[3])
 static void add_pick(uint32_t element, const float place[3])
 {
     const cgt_trajectory_frame *const f = shown_frame();
-    picked p = {.element = element, .id = f->id ? f->id[element] : 0, .is_there = 1};
+    picked p = {.element = element, .id = f->id ? f->id[element] : element, .is_there = 1};
     if (f->kind == CGT_TRAJECTORY_TRIANGLES)
         view_ask_shares(f, element, place, p.share);
     asked.list[asked.count++] = p;

@@ -12,6 +12,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "common/settings_file.h"
 #include "view/view_camera.h"
 #include "web/web_state.h"
 #include "web/web_text.h"
@@ -172,6 +173,15 @@ static char *get_settings(const cgt_figure *figure, const char *name)
     return text;
 }
 
+/* Where the line of the camera is in settings; their end: there is none. */
+static size_t find_camera(const char *settings)
+{
+    const char *line = settings;
+    while (*line && strncmp(line, "camera ", 7) != 0)
+        line = settings_next_line(line);
+    return (size_t)(line - settings);
+}
+
 /* What was set of an option: its values, a line each; "": nothing. NULL: no memory. */
 EMSCRIPTEN_KEEPALIVE const char *web_values(const char *name)
 {
@@ -228,12 +238,12 @@ static double run_size(void)
     return size;
 }
 
-/* Looks at all frames, as cgt-render does, for colours and camera; of a large run at the first few. */
+/* Looks at all frames, as cgt-render does, for colours and camera; of a large run at the first few. Counts all. */
 static int survey_file(void)
 {
     const double large = 64 << 20; /* bytes */
     static const stop_flag never = 0;
-    survey_walk survey = {.most = run_size() > large ? 4 : UINT64_MAX, .quiet = 1, .stop = &never};
+    survey_walk survey = {.most = run_size() > large ? 4 : UINT64_MAX, .count = 1, .quiet = 1, .stop = &never};
     double origin[3];
     for (int turn = 0; turn < 2; turn++) {
         web.message[0] = '\0';
@@ -248,7 +258,7 @@ static int survey_file(void)
     }
     if (survey.is_cut)
         memcpy(web.doubt, web.message, sizeof web.message);
-    web.frames = survey.frames;
+    web.frames = survey.total;
     return survey.frames ? 0 : web_fail("the file has no frame");
 }
 
@@ -256,6 +266,14 @@ cgt_trajectory_options web_reading(void)
 {
     return (cgt_trajectory_options){
         .threads = 1, .all_bonds = true, .leave_out_sites = true, .topology = web.files.topology};
+}
+
+/* The camera that the figure has chosen, or that of its options, is the hand's. */
+static int take_camera(void)
+{
+    const int failed = web_check(cgt_figure_get_camera(web.figure, &web.camera));
+    web.chosen = web.camera;
+    return failed;
 }
 
 /* With a figure of its own, which has the settings. Its first frame that has something is the one that is drawn. */
@@ -287,7 +305,7 @@ static int open_files(const char *settings)
     } while (!figure_run_shows(web.shown) && number < web.frames);
     if (!figure_run_shows(web.shown) && web_seek(0))
         return -1;
-    return web_check(cgt_figure_get_camera(figure, &web.camera)) ? fail_file() : 0;
+    return take_camera() ? fail_file() : 0;
 }
 
 /* Takes the names of a run's files, a line each, and those of its topology and of a mesh, "" for none. */
@@ -319,7 +337,8 @@ EMSCRIPTEN_KEEPALIVE int web_name(const char *run, const char *topology, const c
     return take_names(&web.given, run, topology, mesh);
 }
 
-/* Opens files. Options that do not fit them are left out, but for size and style. */
+/* Opens files, without the camera that was set for those before. Options that do not fit them are left out, but for
+ * size and style. */
 EMSCRIPTEN_KEEPALIVE int web_open(const char *run, const char *topology, const char *mesh)
 {
     static const char *const kept[] = {"size", "style"};
@@ -328,6 +347,11 @@ EMSCRIPTEN_KEEPALIVE int web_open(const char *run, const char *topology, const c
     for (size_t i = 0; i < sizeof kept / sizeof kept[0]; i++)
         if (cgt_figure_get(web.figure, kept[i], why, sizeof why))
             snprintf(few + strlen(few), sizeof few - strlen(few), "%s = %.32s", kept[i], why);
+    if (settings && web.shown) {
+        char *const camera = settings + find_camera(settings);
+        const char *const rest = settings_next_line(camera);
+        memmove(camera, rest, strlen(rest) + 1);
+    }
     web_forget_run();
     int failed = settings ? take_names(&web.files, run, topology, mesh) : web_fail("out of memory for options");
     if (failed)
@@ -441,6 +465,8 @@ static int reopen(const char *settings, int keeps_camera)
     if (!(failed && open_files(before)) && web_seek(number) == 0) { /* else there is no file any more */
         if (failed || keeps_camera)
             web.camera = camera;
+        else
+            take_camera(); /* what is followed has moved it from frame to frame */
         memcpy(web.message, why, sizeof why);
     }
     free(before);
@@ -477,8 +503,10 @@ static int read_anew(const char *name, const char *lines)
 
 int web_take(const char *settings)
 {
+    const int has_camera = settings[find_camera(settings)] != '\0';
+    const int is_moved = memcmp(&web.camera, &web.chosen, sizeof web.camera) != 0;
     if (web.shown)
-        return reopen(settings, 0);
+        return reopen(settings, is_moved && !has_camera);
     char why[sizeof web.message];
     char *const before = get_settings(web.figure, NULL);
     if (!before)

@@ -448,7 +448,10 @@
             },
             load: (m) => { // a settings file
                 const path = '/' + m.name.replace(/[/\0]/g, '_');
-                const before = cgt.ccall('web_values', 'string', ['string'], [null]);
+                let before = values(null);
+                if (isOpen && /^\s*camera\s*=/m.test(before + m.text)) // Undo brings back the hand's
+                    before = before.replace(/^camera = .*\n/m, '') +
+                        `camera = ${cgt.UTF8ToString(cgt._web_camera())}\n`;
                 cgt.FS.writeFile(path, m.text);
                 const status = cgt.ccall('web_load', 'number', ['string'], [path]);
                 cgt.FS.unlink(path);
@@ -584,7 +587,7 @@
             camera: () => {},
             described: () => {},
             progress: (m) => out.progress(m),
-            made: (m) => out.made(m),
+            made: (m) => { out.made(m); if (playing) setPlaying(true); }, // the engine has stopped
             settings: (m) => out.tell(m),
             loaded: (m) => {
                 panel.loaded(m);

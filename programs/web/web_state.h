@@ -29,6 +29,7 @@ typedef struct web_state {
     uint64_t lead, frames;
     cgt_figure_frame *shown; /* NULL: no file is open */
     cgt_camera camera;       /* of the hand */
+    cgt_camera chosen;       /* the one with which it began */
     uint32_t width, height;
     uint8_t *pixels;
     char message[1024];
@@ -46,8 +47,8 @@ int web_fail(const char *text);
 /* The same with the figure's message where a call has failed, else 0. */
 int web_check(cgt_result result);
 
-/* Takes settings, lines "name = value", in place of all that are set, and reads the files anew. What is refused changes
- * nothing. Returns 0, or -1. */
+/* Takes settings, lines "name = value", in place of all that are set, and reads the files anew. A camera that the hand
+ * has moved stays unless they have one. What is refused changes nothing. Returns 0, or -1. */
 int web_take(const char *settings);
 
 /* How files are read; where places begin: 0 where that is the file's own origin; and what is shown. */

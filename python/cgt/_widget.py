@@ -98,6 +98,9 @@ def turn(camera: Camera, x: float, y: float, zoom: float) -> Camera:
     flat = arm - (arm @ up) * up
     flat /= max(float(np.linalg.norm(flat)), 1e-30)
     height = float(np.clip(height + 0.007 * y, -1.5, 1.5))  # never along the axis that points up
-    length *= np.clip(zoom, 0.1, 10)
+    zoom = float(np.clip(zoom, 0.1, 10))
+    length *= zoom
+    if camera.projection == "orthographic":
+        camera.height *= zoom
     camera.eye = camera.target + length * (math.cos(height) * flat + math.sin(height) * up)
     return camera

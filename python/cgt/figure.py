@@ -72,15 +72,21 @@ def _number_text(keyword: str, value) -> str:
     return repr(float(value))
 
 
+def _fov_of(c) -> float:
+    """The angle of the perspective camera that shows at its target what a camera of C's shows."""
+    if c.projection == lib.CGT_PROJECTION_ORTHOGRAPHIC:
+        return math.degrees(2 * math.atan2(c.height, 2 * math.dist(c.eye, c.target)))
+    return c.fov
+
+
 def _text_of(keyword: str, row, value) -> str:
     """One value as C reads it."""
     is_color = row.kind == "color" or row.name == "color"
     if isinstance(value, Camera):
         c = instance(keyword, value, Camera)._struct
-        fov = c.fov
-        if c.projection == lib.CGT_PROJECTION_ORTHOGRAPHIC:  # it shows what a perspective camera shows at its target
-            fov = math.degrees(2 * math.atan(c.height / (2 * math.dist(c.eye, c.target))))
-        return ",".join(f"{x:.9g}" for x in [*c.eye, *c.target, *c.up, fov])
+        if c.t_min or 0 < c.t_max < math.inf or c.mask:
+            raise InvalidArgument(f"{keyword}: t_min, t_max and mask: an option has none of them")
+        return ",".join(f"{x:.9g}" for x in [*c.eye, *c.target, *c.up, _fov_of(c)])
     if isinstance(value, (str, os.PathLike)):
         text = os.fsdecode(value)
         try:
@@ -415,12 +421,18 @@ class Figure(Plain):
 
     @property
     def camera(self) -> Camera:
-        """The camera of the shown frame, less the data's origin, a copy; one that is assigned is that of all frames."""
+        """The camera of the shown frame, less the data's origin, a copy; one that is assigned is that of all frames.
+
+        With the option ortho it is orthographic, without it no such one can be assigned.
+        """
         c = ffi.new("cgt_camera *")
         with self._gate.alone:
             result = lib.cgt_figure_get_camera(self._open, c)
         if result:
             raise InvalidArgument("figure: nothing is shown")
+        if "ortho" in self._texts:  # C's is so from the first picture on
+            c.projection = lib.CGT_PROJECTION_ORTHOGRAPHIC
+            c.height = 2 * math.dist(c.eye, c.target) * math.tan(math.radians(c.fov / 2))
         camera = Camera()
         camera._struct[0] = c[0]
         return camera
@@ -428,7 +440,10 @@ class Figure(Plain):
     @camera.setter
     def camera(self, camera: Camera) -> None:
         c = instance("camera", camera, Camera)._copy()._struct
+        c.fov = _fov_of(c)
         with self._gate.alone:
+            if camera.projection == "orthographic" and "ortho" not in self._texts:
+                raise InvalidArgument("camera: it is orthographic, and the option ortho is not set")
             result = lib.cgt_figure_set_camera(self._open, c)
             self._pixels = None
         if result:

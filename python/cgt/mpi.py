@@ -11,6 +11,7 @@ the order of the ids, for any number of ranks and any distribution.
 """
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import sys
 from typing import Any, Optional, Sequence
@@ -61,10 +62,17 @@ class Job(Plain):
             raise InvalidArgument(f"ranks: {type(ranks).__name__}: must be mpi4py.MPI.Intracomm")
         # a handle is a pointer or an int, which calls take alike
         handle = int.from_bytes(ctypes.string_at(MPI._addressof(ranks), MPI._sizeof(ranks)), sys.byteorder)
-        options = ffi.new("cgt_mpi_options *", {
-            "ranks_per_leader": whole("ranks_per_leader", ranks_per_leader),
-            "exchange_bytes": whole("exchange_bytes", exchange_bytes),
-            "context": {"threads": whole("threads", threads)}})
+        try:
+            options = ffi.new("cgt_mpi_options *", {
+                "ranks_per_leader": whole("ranks_per_leader", ranks_per_leader),
+                "exchange_bytes": whole("exchange_bytes", exchange_bytes),
+                "context": {"threads": whole("threads", threads)}})
+        except BaseException as error:
+            ranks.allgather(f"rank {ranks.rank}: {error}")  # so that the other ranks do not wait
+            raise
+        wrong = next(filter(None, ranks.allgather("")), None)
+        if wrong:
+            raise InvalidArgument(wrong)
         made = ffi.new("cgt_mpi **")
         result = lib.cgt_mpi_create(handle, options, made)
         self._gate, self._keep, self._handle, self._is_first = Gate("job"), [], made[0], ranks.rank == 0
@@ -134,11 +142,18 @@ class Job(Plain):
 
     def draw(self, picture: Picture, camera: Camera) -> Optional[Picture]:
         """Makes a picture of what was gathered: `picture` at rank 0, whose options and camera count; else None."""
-        instance("picture", picture, Picture)
-        camera = instance("camera", camera, Camera)._copy()
-        with self._gate.alone, picture._gate.alone:
-            image, read, keep = picture._image_of(None, None)
-            self._check(lib.cgt_mpi_draw(self._open, picture._options, camera._struct, image))
+        with self._gate.alone, contextlib.ExitStack() as stack:
+            handle = self._open
+            try:
+                camera = instance("camera", camera, Camera)._copy()
+                stack.enter_context(instance("picture", picture, Picture)._gate.alone)
+                if any(picture._given["rows"]):
+                    raise InvalidArgument("picture: rows: the ranks make all of them")
+                image, read, keep = picture._image_of(None, None)
+            except BaseException:
+                lib.cgt_mpi_draw(handle, ffi.NULL, ffi.NULL, ffi.NULL)  # so that the other ranks do not wait
+                raise
+            self._check(lib.cgt_mpi_draw(handle, picture._options, camera._struct, image))
             del keep
             if self._is_first:
                 picture._read = read

@@ -124,6 +124,21 @@ def test_options_count_at_once_and_surveys_for_a_run():
     surveyed.camera = turned
     assert not np.array_equal(surveyed.draw(), before := surveyed.show(run[2]).pixels) and before.std() > 5
     assert np.array_equal(surveyed.camera.eye, turned.eye) and not np.array_equal(surveyed.fit().camera.eye, turned.eye)
+    flat = cgt.Camera((1, 2, -9), up=(0, 0, 1), projection="orthographic", height=3)
+    wanted = cgt.Figure(**SIZE, camera=flat).show(X).pixels
+    ortho = cgt.Figure(**SIZE, ortho=True).show(X)
+    first = ortho.camera
+    ortho.camera = first
+    assert same(ortho.pixels, pixels(X, {"ortho": True}), pixels(X, {"camera": first}))
+    ortho.camera = flat
+    assert same(ortho.pixels, wanted) and ortho.camera.height == pytest.approx(3)
+    first.height /= 2
+    ortho.camera = first
+    assert ortho.camera.height == pytest.approx(first.height) and not np.array_equal(ortho.pixels, wanted)
+    with pytest.raises(cgt.InvalidArgument, match="camera: it is orthographic, and the option ortho is not set"):
+        surveyed.camera = flat
+    with pytest.raises(cgt.InvalidArgument, match="camera: t_min, t_max and mask: an option has none"):
+        cgt.Figure(camera=cgt.Camera((0, -9, 1), t_min=1))
     hit = cgt.Figure(**SIZE, view="front").show(X[:1], radius=2).pick(30, 20)
     assert hit.is_hit and hit.is_data and hit.element == 0 and np.linalg.norm(hit.place) == pytest.approx(2, 1e-3)
     far = cgt.Figure(**SIZE).show(X + 1e7)

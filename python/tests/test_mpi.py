@@ -97,6 +97,29 @@ except cgt.InvalidArgument as error:
     assert told.count("told:") == 9, told
 
 
+def test_mistakes_at_one_rank_leave_none_waiting():
+    told = run(3, """
+job = cgt.mpi.Job(world, threads=1)
+job.gather(share(world))
+for wrong in range(3):
+    for picture, place in ((None, camera), (cgt.Picture(8, 6), None), (cgt.Picture(8, 6, rows=(0, 2)), camera)):
+        good = cgt.Picture(8, 6), camera
+        try:
+            job.draw(*((picture, place) if world.rank == wrong else good))
+        except cgt.InvalidArgument as error:
+            print("told:", "own" if world.rank == wrong else "of another", error)
+job.close()
+for wrong in range(3):
+    try:
+        cgt.mpi.Job(world, threads=-1 if world.rank == wrong else 1)
+    except cgt.InvalidArgument as error:
+        assert world.rank == wrong or str(error).startswith(f"rank {wrong}: threads: -1"), error
+        print("not made")
+""")
+    assert told.count("told: own") == 9 and told.count("not made") == 9, told
+    assert told.count("told: of another") >= 6, told  # rank 0 makes no picture then
+
+
 def test_the_code_of_the_guide_runs():
     guide = os.path.join(os.path.dirname(__file__), "..", "..", "docs", "guide", "python.md")
     with open(guide, encoding="utf-8") as file:

@@ -231,6 +231,9 @@ async function testSelections(browser, address, out) {
         await page.run(`cgtPage.ask('seek', {frame: 1}, 'picture')`);
         assert((await eye()).every((x, c) => Math.abs(x - before[c]) < 1e-4), 'it is followed still');
         assert.match(await page.run(`cgtPage.ask('follow', {formula: 'x > 99'}).then((m) => m.text)`), /selects nothing/);
+        await page.run(`cgtPage.ask('follow', {formula: 'index < 2'})`); // in frame 1: what is read stays
+        await page.run(`cgtPage.ask('load', {name: 'a.settings', text: 'camera = 1,2,30,1,2,0,0,1,0,30'}, 'loaded')`);
+        assert.strictEqual(await camera(page), '1,2,30,1,2,0,0,1,0,30');
     });
     await test('picks go with their ids, and triangles have places', async () => {
         const of = (rows) => 'ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n' + rows.length + '\nITEM: BOX BOUNDS pp pp pp\n' +
@@ -247,6 +250,12 @@ async function testSelections(browser, address, out) {
         await page.run(`cgtPage.ask('seek', {frame: 2}, 'asked')`);
         assert.deepStrictEqual((await card(page)).names.map((text) => text.slice(1)),
             ['sphere 0, id 1, type 1', 'id 2 is not in this frame']);
+        const xyz = (count) => `${count}\n\n` + [-2, 0, 2].slice(0, count).map((x) => `C ${x} 0 0\n`).join('');
+        await drop(page, 'run.xyz', xyz(3) + xyz(2)); // without ids
+        const [last] = await find(page, [2]);
+        await page.run(`cgtPage.ask('ask', {x: ${last[0]}, y: ${last[1]}}, 'asked')`);
+        await page.run(`cgtPage.ask('seek', {frame: 1}, 'asked')`);
+        assert.deepStrictEqual((await card(page)).names, ['1id 2 is not in this frame']);
         await drop(page, 'two.obj', 'v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3\nf 1 3 4\n');
         const places = await find(page, [0, 1]);
         const between = [0, 1].map((c) => Math.round((places[0][c] + places[1][c]) / 2));

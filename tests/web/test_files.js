@@ -149,6 +149,15 @@ async function testSeveral(page) {
                 .then((m) => m.text.split('\\n')[0])`), sphere);
         }
     });
+    await test('a large run has all of its frames', async () => {
+        const text = [...Array(8).keys()].map((k) => '90\n\n' + `C ${k} 0 0${' '.repeat(99000)}\n`.repeat(90)).join('');
+        await drop(page, 'large.xyz.gz', zlib.gzipSync(text));
+        assert.strictEqual(await page.run('cgtPage.error'), '');
+        assert.strictEqual(await frames(page), 8);
+        await page.run(`cgtPage.ask('seek', {frame: 7}, 'picture')`);
+        assert.match(await page.run(`cgtPage.ask('describe', {element: 0}, 'described').then((m) => m.text)`),
+            /at {2}7, 0, 0/);
+    });
     await test('several files that do not go together are refused', async () => {
         const psf = bytes(of('topology_psf/all.psf'));
         for (const [files, says] of [

@@ -175,6 +175,13 @@ async function testMovies(page, folder, out) {
         await settle(page);
         same(await pixels(page), before, 'what is shown afterwards');
     });
+    await test('a run goes on when a picture of it is saved', async () => {
+        await page.run(`document.getElementById('play').onclick()`);
+        await save(page, 'save-picture');
+        await page.until(`cgtPage.frame !== ${await page.run('cgtPage.frame')}`, 20);
+        assert.strictEqual(await page.run(`document.getElementById('play').textContent`), 'Pause');
+        await page.run(`document.getElementById('play').onclick()`);
+    });
     await test('a movie of an orbit plays', async () => {
         await fill(page, {'movie-kind': 'orbit', 'movie-as': 'movie'});
         await fill(page, {'movie-seconds': 1.5, 'movie-rate': 10, 'movie-degrees': 360, 'out-size': '321x200'});
@@ -279,17 +286,28 @@ async function testSettings(browser, address, page, folder) {
             {stdio: ['ignore', 'pipe', 'ignore']});
         same(await pixels(page), native, 'cgt-render --settings');
         const other = await browser.open(address);
+        const turn = () => other.run(`cgtPage.ask('turn', {x: 30, y: 10}, 'picture')`);
         await drop(other, 'caffeine.xyz', read('caffeine.xyz'));
+        await turn();
         await settle(other);
         const before = await pixels(other);
         await give(other, name, bytes.toString());
         await settle(other);
         same(await pixels(other), native, 'another page');
         assert.strictEqual(await other.run(`document.getElementById('style').value`), 'paper');
-        await other.run(`cgtPage.left = -1, document.activeElement.blur()`);
-        await key(other, 'u', 85);
-        await settle(other);
+        const undo = async () => {
+            await other.run(`cgtPage.left = -1, document.activeElement.blur()`);
+            await key(other, 'u', 85);
+            await settle(other);
+        };
+        await undo();
         same(await pixels(other), before, 'undone');
+        await turn();
+        const turned = await camera(other);
+        await give(other, 'few.settings', 'style = plain\n'); // without a camera
+        assert.strictEqual(await camera(other), turned);
+        await undo();
+        assert.strictEqual(await camera(other), turned);
         await give(other, 'few.settings', 'quality = 5\nstyle = plain\nsize = 99x99\n');
         assert.match(await message(other), /left out.*: quality$/);
         await settle(other);
@@ -302,6 +320,10 @@ async function testSettings(browser, address, page, folder) {
             await settle(other);
             same(await pixels(other), plain, text);
         }
+        await give(other, 'near.settings', 'camera = 0,0,9,0,0,0,0,1,0,30\n');
+        assert.strictEqual(await camera(other), '0,0,9,0,0,0,0,1,0,30');
+        await drop(other, 'pour2k.lammpstrj', read('pour2k.lammpstrj')); // which lies elsewhere
+        assert.notStrictEqual(await camera(other), '0,0,9,0,0,0,0,1,0,30');
         await other.close();
     });
 }
