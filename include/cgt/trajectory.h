@@ -123,7 +123,7 @@ typedef enum cgt_trajectory_bond_source {
 typedef enum cgt_trajectory_column_kind {
     CGT_TRAJECTORY_NUMBER = 1, /* numbers */
     CGT_TRAJECTORY_WHOLE,      /* whole numbers (true and false are 1 and 0), exact below 2^24 */
-    CGT_TRAJECTORY_WORD        /* words: the values number them from 1 in order of appearance */
+    CGT_TRAJECTORY_WORD        /* words: the values number up to 1024 of them from 1 in order of appearance; 0: none */
 } cgt_trajectory_column_kind;
 
 /* A column of a frame, under its name in the file. Where a file has vectors, each part is a column: velocities are vx,

@@ -112,21 +112,12 @@ static int read_numbers(cgt_trajectory *t, text_span line, size_t first, float *
 static int store_columns(cgt_trajectory *t, size_t i, text_span line, text_span residue, text_span name)
 {
     const gro_state *const s = t->state;
-    const char *reason = "";
     if (s->resid > 0 && !field_float(field_at(line, 0, 5), columns_values(t, s->resid) + i))
         return trajectory_fail(t, t->text.line, "columns 1 to 5 have no number of a residue");
-    const int slots[2] = {s->resname, s->name};
-    const text_span words[2] = {residue, name};
-    for (int k = 0; k < 2; k++) {
-        if (slots[k] > 0 && text_length(words[k]) > 0) {
-            const uint32_t number = columns_word(t, slots[k], words[k], &reason);
-            if (number == 0)
-                return trajectory_fail(t, t->text.line, "%s", reason);
-            columns_values(t, slots[k])[i] = (float)number;
-        } else if (slots[k] > 0) {
-            columns_values(t, slots[k])[i] = 0.0f;
-        }
-    }
+    if (s->resname > 0)
+        columns_store_word(t, s->resname, i, residue);
+    if (s->name > 0)
+        columns_store_word(t, s->name, i, name);
     return 1;
 }
 

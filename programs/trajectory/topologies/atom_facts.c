@@ -27,21 +27,18 @@ int atom_facts_begin(cgt_trajectory *t, atom_facts *f)
     return trajectory_reserve(t, 0, SIZE_MAX);
 }
 
-static int store_columns(cgt_trajectory *t, const atom_facts *f, uint32_t i, const atom_fact *a)
+static void store_columns(cgt_trajectory *t, const atom_facts *f, uint32_t i, const atom_fact *a)
 {
     const text_span words[3] = {a->name, a->residue, a->segment};
     double resid = NAN;
-    const char *reason = "";
     for (int k = 0; k < 3; k++)
         if (f->slot[k] > 0)
-            columns_values(t, f->slot[k])[i] =
-                text_length(words[k]) > 0 ? (float)columns_word(t, f->slot[k], words[k], &reason) : 0.0f;
+            columns_store_word(t, f->slot[k], i, words[k]);
     field_double(a->resid, &resid);
     const double numbers[3] = {resid, a->charge, a->has_mass ? a->mass : NAN};
     for (int k = 0; k < 3; k++)
         if (f->slot[3 + k] > 0)
             columns_values(t, f->slot[3 + k])[i] = (float)numbers[k];
-    return *reason == '\0' ? 1 : trajectory_fail(t, t->text.line, "%s", reason);
 }
 
 int atom_facts_add(cgt_trajectory *t, atom_facts *f, uint32_t i, const atom_fact *a)
@@ -66,7 +63,8 @@ int atom_facts_add(cgt_trajectory *t, atom_facts *f, uint32_t i, const atom_fact
     f->has_element |= element != 0;
     f->count = i + 1;
     const text_span name = text_length(a->name) > 0 ? a->name : MOLECULE_UNNAMED;
-    return molecule_store(t, &f->names, i, name, element, 1.0f) < 0 ? -1 : store_columns(t, f, i, a);
+    store_columns(t, f, i, a);
+    return molecule_store(t, &f->names, i, name, element, 1.0f);
 }
 
 int atom_facts_finish(cgt_trajectory *t, atom_facts *f, cgt_trajectory_frame *frame)
