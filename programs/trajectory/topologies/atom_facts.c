@@ -41,6 +41,18 @@ static void store_columns(cgt_trajectory *t, const atom_facts *f, uint32_t i, co
             columns_values(t, f->slot[3 + k])[i] = (float)numbers[k];
 }
 
+/* The atomic number that the file tells, or that of the mass; 0: neither. Atoms whose hydrogens are heavier at their
+ * cost may have the mass of a lighter element, O of OH that of N, C of CH that of Be: C, N and O go by their names. */
+static uint32_t find_number(const atom_fact *a)
+{
+    if (a->number != 0 || !a->has_mass)
+        return a->number;
+    const uint32_t found = element_by_mass(a->mass);
+    const char letter = text_length(a->name) > 0 ? *a->name.begin : 'X';
+    const int is_other = strchr("CNO", letter) != NULL && *element_symbol(found) != letter;
+    return found > 1 && found <= 8 && is_other ? 0 : found;
+}
+
 int atom_facts_add(cgt_trajectory *t, atom_facts *f, uint32_t i, const atom_fact *a)
 {
     char key[64];
@@ -50,12 +62,12 @@ int atom_facts_add(cgt_trajectory *t, atom_facts *f, uint32_t i, const atom_fact
              a->segment.begin, (int)(text_length(a->resid) < 20 ? text_length(a->resid) : 20), a->resid.begin);
     const uint32_t site =
         atoms_set_residue(t, &f->residues, i, (text_span){key, key + strlen(key)}, a->residue, a->name);
-    const uint32_t by_mass = a->number != 0 ? a->number : a->has_mass ? element_by_mass(a->mass) : 0;
+    const uint32_t number = find_number(a);
     const int is_massless = a->has_mass && a->mass < SITE_LIGHTEST;
     const int is_atom = a->number != 0 || (a->has_mass && a->mass >= 1.0); /* whatever its name is */
     const uint32_t element = is_massless || (site != 0 && !is_atom) ? SITE_MARK
-                             : by_mass != 0                         ? by_mass
-                                            : molecule_element(t, a->name, a->residue, NAME_ANYWHERE);
+                             : number != 0                          ? number
+                                           : molecule_element(t, a->name, a->residue, NAME_ANYWHERE);
     atoms_set_place(t, i, '\0');
     t->store.id[i] = a->id;
     for (int k = 0; k < 3; k++)
