@@ -49,7 +49,8 @@
  *             there was no memory for; all calls take it.
  *   Memory    follows what was read, never what a file claims. What a call returns belongs to the trajectory.
  *   NULL      is allowed only where a text below says so; 0 is the right default of every field.
- *   Threads   One thread at a time uses a trajectory or a writer; any number of them may be in use at once.
+ *   Threads   One thread at a time uses a trajectory or a writer; any number of them may be in use at once. Meshes
+ *             that assimp reads are opened one after the other.
  *   Processes Before a mesh is read, a child process (fork) tries to: assimp crashes on some files. */
 #ifndef CGT_TRAJECTORY_H
 #define CGT_TRAJECTORY_H
