@@ -56,7 +56,7 @@ void lammps_set_box(const cgt_trajectory *t, cgt_trajectory_frame *frame);
 text_span lammps_without_comment(text_span line);
 
 /* The columns of the atoms, apart by blanks: by the style behind the keyword ("Atoms # full") or, with a warning, by
- * the first row, which also tells whether image flags follow. Returns 1, or 0: the style is not known. */
+ * the first row, which also tells whether image flags follow. Returns 1 or -1. */
 enum { LAMMPS_COLUMNS_SIZE = 96 };
 int lammps_data_columns(cgt_trajectory *t, text_span keyword, text_span first, char columns[LAMMPS_COLUMNS_SIZE]);
 
