@@ -13,9 +13,7 @@
 /* The box in LAMMPS' form: a corner and three edges. */
 typedef struct lammps_box {
     double origin[3];
-    double edge[3][3]; /* edge[i] is the box vector a, b or c */
-    double low[3];     /* bounds of the parallelepiped */
-    double high[3];
+    double edge[3][3];  /* edge[i] is the box vector a, b or c */
     int8_t periodic[3]; /* as in cgt_trajectory_frame */
 } lammps_box;
 
