@@ -60,9 +60,11 @@ static int read_head(cgt_trajectory *t, cgt_trajectory_frame *head)
     head->step = (int64_t)t->next;
     if (title_number(line, "step=", &step) && fabs(step) < 9e18)
         head->step = (int64_t)step;
-    status = trajectory_line(t, &line);
+    do
+        status = trajectory_line(t, &line);
+    while (status > 0 && is_blank && text_is_blank(line));
     if (status <= 0 && (status < 0 || is_blank))
-        return status; /* a blank line ends the file */
+        return status; /* blank lines end the file */
     if (status == 0 || !text_word(&line, &word) || !text_is_blank(line))
         return trajectory_fail(t, t->text.line, "a number of atoms was expected on the line after the title");
     return trajectory_parse_count(t, word, &s->count);
