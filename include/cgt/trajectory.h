@@ -49,7 +49,8 @@
  *             there was no memory for; all calls take it.
  *   Memory    follows what was read, never what a file claims. What a call returns belongs to the trajectory.
  *   NULL      is allowed only where a text below says so; 0 is the right default of every field.
- *   Threads   One thread at a time uses a trajectory or a writer; any number of them may be in use at once.
+ *   Threads   One thread at a time uses a trajectory or a writer; any number of them may be in use at once. Meshes
+ *             that assimp reads are opened one after the other.
  *   Processes Before a mesh is read, a child process (fork) tries to: assimp crashes on some files. */
 #ifndef CGT_TRAJECTORY_H
 #define CGT_TRAJECTORY_H
@@ -123,7 +124,7 @@ typedef enum cgt_trajectory_bond_source {
 typedef enum cgt_trajectory_column_kind {
     CGT_TRAJECTORY_NUMBER = 1, /* numbers */
     CGT_TRAJECTORY_WHOLE,      /* whole numbers (true and false are 1 and 0), exact below 2^24 */
-    CGT_TRAJECTORY_WORD        /* words: the values number them from 1 in order of appearance */
+    CGT_TRAJECTORY_WORD        /* words: the values number up to 1024 of them from 1 in order of appearance; 0: none */
 } cgt_trajectory_column_kind;
 
 /* A column of a frame, under its name in the file. Where a file has vectors, each part is a column: velocities are vx,

@@ -8,6 +8,7 @@
 #include "mesh/mesh_model.h"
 
 #include <inttypes.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -166,5 +167,11 @@ int mesh_import(cgt_trajectory *t, mesh_model *model)
         return trajectory_fail(t, 0, "glTF is read by tinygltf, which this build does not have");
 #endif
     }
-    return mesh_rehearse(t) < 0 ? -1 : mesh_import_scene(t, model);
+    /* assimp's logger and its last error are those of the process; and a child that is made while another thread holds
+     * one of assimp's locks never gets it */
+    static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
+    pthread_mutex_lock(&one_at_a_time);
+    const int status = mesh_rehearse(t) < 0 ? -1 : mesh_import_scene(t, model);
+    pthread_mutex_unlock(&one_at_a_time);
+    return status;
 }

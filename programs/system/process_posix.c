@@ -109,6 +109,7 @@ int process_start(process_child *child, const char *const *argv, FILE *messages)
     if (pipe(ends_of_pipe))
         return errno;
     const int input = ends_of_pipe[0], output = ends_of_pipe[1];
+    signal(SIGCHLD, SIG_DFL); /* where it is ignored, as this program may inherit, nobody learns how a child ended */
     fcntl(input, F_SETFD, FD_CLOEXEC);
     fcntl(output, F_SETFD, FD_CLOEXEC);
     fcntl(fileno(messages), F_SETFD, FD_CLOEXEC); /* adddup2 gives the program a copy */
@@ -156,8 +157,10 @@ int process_has_ended(process_child *child, int wait, int *code, char *reason, s
     const pid_t ended = waitpid((pid_t)child->process, &status, wait ? 0 : WNOHANG);
     if (ended == 0 || (ended < 0 && errno == EINTR))
         return 0;
-    *code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    if (WIFSIGNALED(status))
+    *code = ended > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    if (ended < 0)
+        snprintf(reason, reason_size, "how it ended is not known: %s", strerror(errno));
+    else if (WIFSIGNALED(status))
         snprintf(reason, reason_size, "it was ended by a signal: %s", strsignal(WTERMSIG(status)));
     child->process = -1;
     return 1;

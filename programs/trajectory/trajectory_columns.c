@@ -189,9 +189,16 @@ void columns_part_name(const char *name, uint64_t parts, uint64_t i, char *text,
 
 float *columns_values(const cgt_trajectory *t, int slot) { return t->columns.wanted[slot - 1].value; }
 
-uint32_t columns_word(cgt_trajectory *t, int slot, text_span word, const char **reason)
+void columns_store_word(cgt_trajectory *t, int slot, size_t i, text_span word)
 {
-    return name_table_find(t->columns.wanted[slot - 1].words, word, reason);
+    const wanted_column *const w = &t->columns.wanted[slot - 1];
+    const char *reason = "";
+    char quote[TEXT_QUOTE_SIZE];
+    const uint32_t number = text_length(word) > 0 ? name_table_find(w->words, word, &reason) : 0;
+    if (*reason != '\0')
+        trajectory_warn(t, DOUBT_WORDS, t->text.line, "the column %.40s has no words such as '%s': %s", w->name,
+                        text_quote(word, quote), reason);
+    w->value[i] = (float)number;
 }
 
 void columns_set_words(cgt_trajectory *t, int slot, const cgt_trajectory_column *from)

@@ -47,10 +47,12 @@ int columns_want(const cgt_trajectory *t, const char *name);
  * the file calls them, positions x y z. */
 void columns_part_name(const char *name, uint64_t parts, uint64_t i, char *text, size_t size);
 
-/* Where the values of a slot from columns_add go, and the number of a word in it (0: an error, *reason gets a
- * sentence). */
+/* Where the values of a slot from columns_add go. */
 float *columns_values(const cgt_trajectory *t, int slot);
-uint32_t columns_word(cgt_trajectory *t, int slot, text_span word, const char **reason);
+
+/* Stores the number of a word as value i of a slot: 0 where it is empty or, with a warning, where words have no room
+ * for it. */
+void columns_store_word(cgt_trajectory *t, int slot, size_t i, text_span word);
 
 /* Makes the words of a slot those of another column. */
 void columns_set_words(cgt_trajectory *t, int slot, const cgt_trajectory_column *from);

@@ -248,7 +248,6 @@ static void end_archive(trajectory_input *in) { in->archive = NULL; }
 
 static ssize_t read_source(trajectory_input *in, void *bytes, size_t size)
 {
-    in->was_read = 1;
     if (in->peeked_at < in->peeked_size) {
         const size_t left = in->peeked_size - in->peeked_at, count = size < left ? size : left;
         memcpy(bytes, in->peeked + in->peeked_at, count);

@@ -34,7 +34,6 @@ typedef struct trajectory_input {
     /* own */
     int descriptor;
     int is_regular;
-    int was_read; /* bytes were taken from the descriptor since it was at its start */
     unsigned char head[INPUT_HEAD];
     size_t head_size, head_at;
     struct archive *archive; /* NULL: not compressed, or not begun */

@@ -47,6 +47,7 @@ typedef enum trajectory_doubt {
     DOUBT_LOST,          /* .cif: atoms without coordinates */
     DOUBT_NO_IDS,        /* .cif: atoms without a number */
     DOUBT_INCLUDES,      /* .top: files that were not found */
+    DOUBT_WORDS,         /* words that a column has no room for */
     DOUBTS
 } trajectory_doubt;
 

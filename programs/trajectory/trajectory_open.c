@@ -224,7 +224,8 @@ static const char *check_series(const trajectory_format *format, const char *con
     return NULL;
 }
 
-/* Looks for files that are missing, or of another format by their endings, before the first frame is used. */
+/* Looks for files that are missing, or of another format by their endings, before the first frame is used. format: that
+ * of the first; NULL: it does not go by endings. */
 static const char *check_paths(const trajectory_format *format, const char *const *paths, size_t count,
                                const char **wrong)
 {
@@ -254,7 +255,7 @@ static int open_series(cgt_trajectory *t, const char *const *paths, size_t count
     else if (reason == NULL && format != NULL)
         reason = check_series(format, paths, count, follow);
     const char *wrong = path;
-    if (reason == NULL && (reason = check_paths(format, paths, count, &wrong)) != NULL)
+    if (reason == NULL && (reason = check_paths(named == NULL ? format : NULL, paths, count, &wrong)) != NULL)
         path = wrong;
     if (reason != NULL)
         return trajectory_refuse(t, path, CGT_ERROR_FILE, reason);

@@ -18,12 +18,15 @@ static const float masses[] = {
     0,       150.36f, 151.96f, 157.25f, 158.93f, 162.50f, 164.93f, 167.26f, 168.93f, 173.05f, 174.97f, 178.49f,
     180.95f, 183.84f, 186.21f, 190.23f, 192.22f, 195.08f, 196.97f, 200.59f, 204.38f, 207.2f,  208.98f};
 
+/* Up to oxygen force fields write two decimals or more, 12.01 and 14.0067, and there are other particles close to an
+ * element: CH2 as one has 14.02 to 14.03, as NH2 16.02, N beside a hydrogen of 3.024 has 11.991, O 13.983. Beyond, old
+ * weights differ by as much as 47.88 for titanium does. */
 uint32_t element_by_mass(double mass)
 {
     if (!(mass > 0.0 && mass < 300.0) || mass == floor(mass))
         return 0;
     for (uint32_t i = 0; i < sizeof masses / sizeof masses[0]; i++)
-        if (masses[i] > 0.0f && fabs(mass - (double)masses[i]) <= 0.03)
+        if (masses[i] > 0.0f && fabs(mass - (double)masses[i]) <= (i < 8 ? 0.012 : 0.03))
             return i + 1;
     return 0;
 }

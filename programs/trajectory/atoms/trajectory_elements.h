@@ -19,8 +19,8 @@ typedef enum element_reading {
 /* The number of the element that a name stands for, from 1 for hydrogen; 0: none. The case does not matter. */
 uint32_t element_find(text_span name, element_reading *reading);
 
-/* The element of this atomic mass, or 0: none has it within 0.03. Whole numbers are none: units in which atoms have a
- * mass of 1 or 2 know no elements. */
+/* The element of this atomic mass, or 0: none has it within 0.012 up to oxygen, beyond within 0.03. Whole numbers are
+ * none: units in which atoms have a mass of 1 or 2 know no elements. */
 uint32_t element_by_mass(double mass);
 
 /* Names so far, in order of appearance: the first is type 1. */

@@ -4,7 +4,8 @@
  * DCD, as CHARMM, NAMD and X-PLOR write it: records of Fortran, each between two markers that tell its length (4 bytes,
  * in files of some compilers 8), in either byte order. A header (counts, steps, flags), a title, the number of atoms,
  * the atoms that move where others are fixed; then for each frame the unit cell, where the header says so, and all x,
- * all y, all z. Fixed atoms are in the first frame alone. Lengths are Angstrom; times are told in picoseconds. */
+ * all y, all z. Fixed atoms are in the first frame alone. Lengths are Angstrom; times are told in picoseconds, where
+ * the unit of the step is known. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/binary/binary_reader.h"
 #include "trajectory/molecule/molecule_atom.h"
@@ -41,6 +42,7 @@ typedef struct dcd_state {
     uint32_t atoms;
     uint32_t moving; /* atoms of a frame but the first */
     uint32_t *index; /* of those, from 0; NULL: all move */
+    float *first;    /* the store's xyzr after the first frame, where not all atoms move */
     uint32_t frames; /* that the header says; 0: unknown */
     int32_t start, every;
     double delta; /* of a step, in picoseconds; 0: unknown */
@@ -152,14 +154,22 @@ static int read_header(cgt_trajectory *t, int32_t *fixed)
     return 1;
 }
 
-static int skip_title(cgt_trajectory *t)
+/* LAMMPS writes the length of its step in the units of its run, which no number tells. */
+static int read_title(cgt_trajectory *t)
 {
+    static const char of_lammps[] = "Written by LAMMPS";
     dcd_state *const s = t->state;
+    char begin[4 + sizeof of_lammps - 1] = ""; /* how many lines there are, and the first of them */
     uint64_t size;
     const int status = begin_record_or_end(s, &size, "the title");
     if (status <= 0)
         return status < 0 ? -1 : trajectory_fail(t, 0, "the file ends in the header: it is cut off");
-    return binary_skip(&s->in, size, "the title") < 0 ? -1 : end_record(s, size, "the title");
+    const size_t known = size < sizeof begin ? (size_t)size : sizeof begin;
+    if (binary_bytes(&s->in, begin, known, "the title") < 0 || binary_skip(&s->in, size - known, "the title") < 0)
+        return -1;
+    if (memcmp(begin + 4, of_lammps, sizeof of_lammps - 1) == 0)
+        s->delta = 0.0;
+    return end_record(s, size, "the title");
 }
 
 /* Reads which atoms move. */
@@ -193,7 +203,7 @@ static int dcd_begin(cgt_trajectory *t)
     s->at = s->made = 0;
     free(s->index);
     s->index = NULL;
-    if (read_header(t, &fixed) < 0 || skip_title(t) < 0 || begin_record(s, 4, "the number of atoms") < 0 ||
+    if (read_header(t, &fixed) < 0 || read_title(t) < 0 || begin_record(s, 4, "the number of atoms") < 0 ||
         binary_i32(&s->in, &atoms, "the number of atoms") < 0 || end_record(s, 4, "the number of atoms") < 0)
         return -1;
     if (atoms < 0 || fixed < 0 || fixed > atoms)
@@ -320,8 +330,17 @@ static int dcd_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
     if (status <= 0)
         return status;
     if ((s->has_cell && read_cell(t, cell) < 0) || binary_expect(&s->in, 12 * (uint64_t)count, coordinates) < 0 ||
-        trajectory_reserve(t, 0, s->atoms) < 0 || read_places(t, count, index, !s->has_cell) < 0)
+        trajectory_reserve(t, 0, s->atoms) < 0)
         return -1;
+    if (index != NULL) /* the store may have been moved together since (sites_leave_out) */
+        memcpy(t->store.xyzr, s->first, 4 * sizeof *s->first * (size_t)s->atoms);
+    if (read_places(t, count, index, !s->has_cell) < 0)
+        return -1;
+    if (index == NULL && s->index != NULL) {
+        if (trajectory_grow(&s->first, s->atoms, 4 * sizeof *s->first))
+            return trajectory_fail(t, 0, "not enough memory for the fixed atoms");
+        memcpy(s->first, t->store.xyzr, 4 * sizeof *s->first * (size_t)s->atoms);
+    }
     for (size_t i = 0; i < s->atoms; i++)
         t->store.xyzr[4 * i + 3] = t->options.radius > 0.0f ? t->options.radius : BARE_RADIUS;
     trajectory_frame_fill(t, frame, s->atoms);
@@ -358,6 +377,7 @@ static void dcd_end(cgt_trajectory *t)
 {
     dcd_state *const s = t->state;
     free(s->index);
+    free(s->first);
 }
 
 const trajectory_format trajectory_format_dcd = {

@@ -60,9 +60,11 @@ static int read_head(cgt_trajectory *t, cgt_trajectory_frame *head)
     head->step = (int64_t)t->next;
     if (title_number(line, "step=", &step) && fabs(step) < 9e18)
         head->step = (int64_t)step;
-    status = trajectory_line(t, &line);
+    do
+        status = trajectory_line(t, &line);
+    while (status > 0 && is_blank && text_is_blank(line));
     if (status <= 0 && (status < 0 || is_blank))
-        return status; /* a blank line ends the file */
+        return status; /* blank lines end the file */
     if (status == 0 || !text_word(&line, &word) || !text_is_blank(line))
         return trajectory_fail(t, t->text.line, "a number of atoms was expected on the line after the title");
     return trajectory_parse_count(t, word, &s->count);
@@ -112,21 +114,12 @@ static int read_numbers(cgt_trajectory *t, text_span line, size_t first, float *
 static int store_columns(cgt_trajectory *t, size_t i, text_span line, text_span residue, text_span name)
 {
     const gro_state *const s = t->state;
-    const char *reason = "";
     if (s->resid > 0 && !field_float(field_at(line, 0, 5), columns_values(t, s->resid) + i))
         return trajectory_fail(t, t->text.line, "columns 1 to 5 have no number of a residue");
-    const int slots[2] = {s->resname, s->name};
-    const text_span words[2] = {residue, name};
-    for (int k = 0; k < 2; k++) {
-        if (slots[k] > 0 && text_length(words[k]) > 0) {
-            const uint32_t number = columns_word(t, slots[k], words[k], &reason);
-            if (number == 0)
-                return trajectory_fail(t, t->text.line, "%s", reason);
-            columns_values(t, slots[k])[i] = (float)number;
-        } else if (slots[k] > 0) {
-            columns_values(t, slots[k])[i] = 0.0f;
-        }
-    }
+    if (s->resname > 0)
+        columns_store_word(t, s->resname, i, residue);
+    if (s->name > 0)
+        columns_store_word(t, s->name, i, name);
     return 1;
 }
 

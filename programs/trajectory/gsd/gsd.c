@@ -117,15 +117,10 @@ static int name_types(cgt_trajectory *t, uint32_t count)
     for (uint32_t i = 0; i < count; i++) {
         const uint64_t type = s->has_type ? t->store.type[i] : 0;
         const char *const name = type < s->types ? (const char *)s->type_bytes + type * s->type_length : "";
-        const char *reason = "";
+        const size_t length = type < s->types ? strnlen(name, (size_t)s->type_length) : 0;
         t->store.type[i] = (uint32_t)type + 1;
-        if (slot > 0) {
-            const size_t length = type < s->types ? strnlen(name, (size_t)s->type_length) : 0;
-            columns_values(t, slot)[i] =
-                length > 0 ? (float)columns_word(t, slot, (text_span){name, name + length}, &reason) : 0.0f;
-        }
-        if (*reason != '\0')
-            return trajectory_fail(t, 0, "frame %" PRIu64 ": %s", t->next, reason);
+        if (slot > 0)
+            columns_store_word(t, slot, i, (text_span){name, name + length});
     }
     return 1;
 }

@@ -35,8 +35,6 @@ static void box_from_bounds(lammps_box *box, double bounds[3][4])
     const double tilt[3][3] = {{0, 0, 0}, {xy, 0, 0}, {xz, yz, 0}};
     memcpy(box->edge, tilt, sizeof tilt);
     for (int i = 0; i < 3; i++) {
-        box->low[i] = bounds[i][0];
-        box->high[i] = bounds[i][1];
         box->origin[i] = bounds[i][0] - below[i];
         box->edge[i][i] = (bounds[i][1] - above[i]) - box->origin[i];
     }
@@ -48,13 +46,6 @@ static void box_from_vectors(lammps_box *box, double lines[3][4])
     for (int i = 0; i < 3; i++) {
         memcpy(box->edge[i], lines[i], sizeof box->edge[i]);
         box->origin[i] = lines[i][3];
-    }
-    for (int axis = 0; axis < 3; axis++) {
-        box->low[axis] = box->high[axis] = box->origin[axis];
-        for (int i = 0; i < 3; i++) {
-            box->low[axis] += fmin(0.0, box->edge[i][axis]);
-            box->high[axis] += fmax(0.0, box->edge[i][axis]);
-        }
     }
 }
 

@@ -5,7 +5,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/lammps/lammps_parts.h"
 
-#include <float.h>
 #include <string.h>
 
 /* ---- Columns ------------------------------------------------------------------------------------------------ */
@@ -168,12 +167,6 @@ int lammps_plan_columns(cgt_trajectory *t, text_span columns)
 
 /* ---- What a frame is made of -------------------------------------------------------------------------------- */
 
-/* A bound beyond a float's range stays finite. */
-static float clamp_to_float(double value)
-{
-    return value > (double)FLT_MAX ? FLT_MAX : value < -(double)FLT_MAX ? -FLT_MAX : (float)value;
-}
-
 int lammps_finish_row(cgt_trajectory *t, row *r)
 {
     lammps_frame *const s = t->state;
@@ -194,13 +187,8 @@ int lammps_finish_row(cgt_trajectory *t, row *r)
 void lammps_set_box(const cgt_trajectory *t, cgt_trajectory_frame *frame)
 {
     const lammps_frame *const s = t->state;
-    for (int axis = 0; axis < 3 && s->has_box; axis++) {
-        frame->box_min[axis] = clamp_to_float(s->box.low[axis]);
-        frame->box_max[axis] = clamp_to_float(s->box.high[axis]);
-    }
     if (s->has_box) {
-        memcpy(frame->box_origin, s->box.origin, sizeof frame->box_origin);
-        memcpy(frame->box_edge, s->box.edge, sizeof frame->box_edge);
+        trajectory_frame_set_box(frame, s->box.origin, s->box.edge);
         memcpy(frame->periodic, s->box.periodic, sizeof frame->periodic);
         memcpy(frame->unwrapped, s->unwrapped, sizeof frame->unwrapped);
     }

@@ -80,10 +80,17 @@ static int read_box_line(cgt_trajectory *t, text_span line)
     return 0;
 }
 
-static int read_header_line(cgt_trajectory *t, text_span line)
+static int read_header_line(cgt_trajectory *t, text_span words)
 {
     data_state *const s = t->state;
-    text_span rest = line, word;
+    char copy[256] = ""; /* with one blank between words, whatever the file has there */
+    size_t length = 0;
+    text_span word;
+    while (text_word(&words, &word) && length < sizeof copy)
+        length += (size_t)snprintf(copy + length, sizeof copy - length, "%s%.*s", length > 0 ? " " : "",
+                                   (int)text_length(word), word.begin);
+    const text_span line = {copy, copy + strlen(copy)};
+    text_span rest = line;
     const int is_box = read_box_line(t, line);
     if (is_box != 0)
         return is_box;
@@ -123,9 +130,8 @@ static int read_atoms(cgt_trajectory *t, text_span keyword)
     snprintf(heading, sizeof heading, "%.*s", (int)text_length(keyword), keyword.begin);
     if (trajectory_line_inside(t, &first, "before the atoms") < 0)
         return -1;
-    if (!lammps_data_columns(t, (text_span){heading, heading + strlen(heading)}, first, columns))
-        return trajectory_fail(
-            t, t->text.line, "the style of the atoms is not known here: write it behind the keyword, \"Atoms # full\"");
+    if (lammps_data_columns(t, (text_span){heading, heading + strlen(heading)}, first, columns) < 0)
+        return -1;
     text_reader_back(&t->text);
     if (lammps_plan_columns(t, (text_span){columns, columns + strlen(columns)}) < 0)
         return -1;

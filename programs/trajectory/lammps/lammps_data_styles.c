@@ -90,11 +90,26 @@ static int has_images(text_span first, const char *columns)
     return 1;
 }
 
+/* A style without the suffix of its accelerated form: bpm/sphere has none. */
+static text_span bare_style(text_span name)
+{
+    static const char *const suffixes[] = {"/kk", "/kk/host", "/kk/device", "/omp", "/gpu", "/intel", "/opt"};
+    for (size_t i = 0; i < sizeof suffixes / sizeof suffixes[0]; i++) {
+        const size_t length = strlen(suffixes[i]);
+        if (text_length(name) > length && memcmp(name.end - length, suffixes[i], length) == 0)
+            return (text_span){name.begin, name.end - length};
+    }
+    return name;
+}
+
 int lammps_data_columns(cgt_trajectory *t, text_span keyword, text_span first, char columns[LAMMPS_COLUMNS_SIZE])
 {
     const char *const mark = memchr(keyword.begin, '#', text_length(keyword));
     text_span rest = {mark != NULL ? mark + 1 : keyword.end, keyword.end}, name;
+    char quote[TEXT_QUOTE_SIZE];
     const int has_name = text_word(&rest, &name);
+    if (has_name)
+        name = bare_style(name);
     const char *const guess = has_name ? NULL : guess_style(first);
     for (size_t i = 0; i < sizeof styles / sizeof styles[0]; i++) {
         const data_style *const s = &styles[i];
@@ -107,5 +122,8 @@ int lammps_data_columns(cgt_trajectory *t, text_span keyword, text_span first, c
         snprintf(columns, LAMMPS_COLUMNS_SIZE, "%s%s", s->columns, images ? " ix iy iz" : "");
         return 1;
     }
-    return 0;
+    if (has_name)
+        return trajectory_fail(t, t->text.line, "atoms of the style '%s' cannot be read", text_quote(name, quote));
+    return trajectory_fail(t, t->text.line,
+                           "the style of the atoms is not known here: write it behind the keyword, \"Atoms # full\"");
 }

@@ -13,9 +13,7 @@
 /* The box in LAMMPS' form: a corner and three edges. */
 typedef struct lammps_box {
     double origin[3];
-    double edge[3][3]; /* edge[i] is the box vector a, b or c */
-    double low[3];     /* bounds of the parallelepiped */
-    double high[3];
+    double edge[3][3];  /* edge[i] is the box vector a, b or c */
     int8_t periodic[3]; /* as in cgt_trajectory_frame */
 } lammps_box;
 
@@ -56,7 +54,7 @@ void lammps_set_box(const cgt_trajectory *t, cgt_trajectory_frame *frame);
 text_span lammps_without_comment(text_span line);
 
 /* The columns of the atoms, apart by blanks: by the style behind the keyword ("Atoms # full") or, with a warning, by
- * the first row, which also tells whether image flags follow. Returns 1, or 0: the style is not known. */
+ * the first row, which also tells whether image flags follow. Returns 1 or -1. */
 enum { LAMMPS_COLUMNS_SIZE = 96 };
 int lammps_data_columns(cgt_trajectory *t, text_span keyword, text_span first, char columns[LAMMPS_COLUMNS_SIZE]);
 

@@ -151,26 +151,21 @@ static text_span value_of(const mmcif_state *s, cif_role role)
     return (text_span){value, value + strlen(value)};
 }
 
-static int store_columns(cgt_trajectory *t, size_t i)
+static void store_columns(cgt_trajectory *t, size_t i)
 {
     const mmcif_state *const s = t->state;
     for (int k = 0; k < CIF_COLUMNS; k++) {
         if (s->slot[k] == 0)
             continue;
         const text_span text = value_of(s, (cif_role)k);
-        float *const value = columns_values(t, s->slot[k]) + i;
-        const char *reason = "";
-        double number = NAN;
-        if (columns[k].kind != CGT_TRAJECTORY_WORD) {
+        if (columns[k].kind == CGT_TRAJECTORY_WORD) {
+            columns_store_word(t, s->slot[k], i, text);
+        } else {
+            double number = NAN;
             cif_number(text, &number);
-            *value = (float)number;
-            continue;
+            columns_values(t, s->slot[k])[i] = (float)number;
         }
-        *value = (float)(text.begin < text.end ? columns_word(t, s->slot[k], text, &reason) : 0);
-        if (*reason != '\0')
-            return trajectory_fail(t, t->text.line, "%s", reason);
     }
-    return 1;
 }
 
 /* Reads the place of an atom: 1, 0 it has none, -1. */
@@ -261,7 +256,8 @@ static int store_atom(cgt_trajectory *t)
     const char *const letters = element_symbol(element);
     text_span type = *letters != '\0' ? (text_span){letters, letters + strlen(letters)} : name;
     type = text_length(type) > 0 ? type : MOLECULE_UNNAMED;
-    return molecule_store(t, &s->names, i, type, element, 1.0f) < 0 ? -1 : store_columns(t, i);
+    store_columns(t, i);
+    return molecule_store(t, &s->names, i, type, element, 1.0f);
 }
 
 /* ---- Frames ------------------------------------------------------------------------------------------------- */

@@ -62,26 +62,21 @@ static int plan_columns(cgt_trajectory *t)
 }
 
 /* Stores the wanted columns of atom i; a blank field is no word, or no number. */
-static int store_columns(cgt_trajectory *t, size_t i, text_span line)
+static void store_columns(cgt_trajectory *t, size_t i, text_span line)
 {
     const pdb_state *const s = t->state;
     for (int k = 0; k < PDB_COLUMNS; k++) {
         if (s->slot[k] == 0)
             continue;
         const text_span field = field_at(line, columns[k].begin, columns[k].width);
-        float *const value = columns_values(t, s->slot[k]) + i;
-        const char *reason = "";
-        if (columns[k].kind != CGT_TRAJECTORY_WORD) {
+        if (columns[k].kind == CGT_TRAJECTORY_WORD) {
+            columns_store_word(t, s->slot[k], i, field);
+        } else {
+            float *const value = columns_values(t, s->slot[k]) + i;
             *value = NAN;
             field_float(field, value);
-            continue;
         }
-        const uint32_t number = field.begin < field.end ? columns_word(t, s->slot[k], field, &reason) : 0;
-        if (*reason != '\0')
-            return trajectory_fail(t, t->text.line, "%s", reason);
-        *value = (float)number;
     }
-    return 1;
 }
 
 /* ---- Atoms -------------------------------------------------------------------------------------------------- */
@@ -209,7 +204,8 @@ static int read_atom(cgt_trajectory *t, text_span line)
     t->store.id[i] = s->serial;
     s->has_element |= element != 0;
     s->count++;
-    return molecule_store(t, &s->names, i, type, element, 1.0f) < 0 ? -1 : store_columns(t, i, line);
+    store_columns(t, i, line);
+    return molecule_store(t, &s->names, i, type, element, 1.0f);
 }
 
 /* ---- Other records ------------------------------------------------------------------------------------------ */

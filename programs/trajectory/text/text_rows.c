@@ -133,18 +133,19 @@ static int parse_logical(text_span word, float *value)
 }
 
 /* Stores value i of a column that is wanted under its name. Returns NULL, or what the word should have been. */
-static const char *store_wanted(cgt_trajectory *t, const row_plan *plan, uint32_t column, text_span word, size_t i)
+static const char *store_wanted(cgt_trajectory *t, const row_plan *plan, uint32_t column, text_span word, size_t i,
+                                const row *r)
 {
-    const char *reason = "";
     const int slot = plan->slot[column];
     float *const value = columns_values(t, slot) + i;
     switch (plan->kind[column]) {
-    case CGT_TRAJECTORY_WORD: {
-        const uint32_t number = columns_word(t, slot, word, &reason);
-        *value = (float)number;
-        return number > 0 ? NULL : reason;
-    }
-    case CGT_TRAJECTORY_WHOLE: return text_float(word, value) || parse_logical(word, value) ? NULL : "a whole number";
+    case CGT_TRAJECTORY_WORD: columns_store_word(t, slot, i, word); return NULL;
+    case CGT_TRAJECTORY_WHOLE:
+        if (plan->role[column] == ROW_TYPE) { /* the word may be a label */
+            *value = (float)r->type;
+            return NULL;
+        }
+        return text_float(word, value) || parse_logical(word, value) ? NULL : "a whole number";
     default: return text_float(word, value) ? NULL : "a number";
     }
 }
@@ -159,7 +160,7 @@ static int parse_row(cgt_trajectory *t, const row_plan *plan, text_span line, si
                                    plan->columns);
         const char *expected = parse_value(t, plan, (row_role)plan->role[column], word, r);
         if (expected == NULL && plan->slot[column] != 0)
-            expected = store_wanted(t, plan, column, word, i);
+            expected = store_wanted(t, plan, column, word, i, r);
         if (expected != NULL)
             return trajectory_fail(t, t->text.line, "column %" PRIu32 ": '%s' is not %s", column + 1,
                                    text_quote(word, quote), expected);

@@ -27,21 +27,30 @@ int atom_facts_begin(cgt_trajectory *t, atom_facts *f)
     return trajectory_reserve(t, 0, SIZE_MAX);
 }
 
-static int store_columns(cgt_trajectory *t, const atom_facts *f, uint32_t i, const atom_fact *a)
+static void store_columns(cgt_trajectory *t, const atom_facts *f, uint32_t i, const atom_fact *a)
 {
     const text_span words[3] = {a->name, a->residue, a->segment};
     double resid = NAN;
-    const char *reason = "";
     for (int k = 0; k < 3; k++)
         if (f->slot[k] > 0)
-            columns_values(t, f->slot[k])[i] =
-                text_length(words[k]) > 0 ? (float)columns_word(t, f->slot[k], words[k], &reason) : 0.0f;
+            columns_store_word(t, f->slot[k], i, words[k]);
     field_double(a->resid, &resid);
     const double numbers[3] = {resid, a->charge, a->has_mass ? a->mass : NAN};
     for (int k = 0; k < 3; k++)
         if (f->slot[3 + k] > 0)
             columns_values(t, f->slot[3 + k])[i] = (float)numbers[k];
-    return *reason == '\0' ? 1 : trajectory_fail(t, t->text.line, "%s", reason);
+}
+
+/* The atomic number that the file tells, or that of the mass; 0: neither. Atoms whose hydrogens are heavier at their
+ * cost may have the mass of a lighter element, O of OH that of N, C of CH that of Be: C, N and O go by their names. */
+static uint32_t find_number(const atom_fact *a)
+{
+    if (a->number != 0 || !a->has_mass)
+        return a->number;
+    const uint32_t found = element_by_mass(a->mass);
+    const char letter = text_length(a->name) > 0 ? *a->name.begin : 'X';
+    const int is_other = strchr("CNO", letter) != NULL && *element_symbol(found) != letter;
+    return found > 1 && found <= 8 && is_other ? 0 : found;
 }
 
 int atom_facts_add(cgt_trajectory *t, atom_facts *f, uint32_t i, const atom_fact *a)
@@ -53,12 +62,12 @@ int atom_facts_add(cgt_trajectory *t, atom_facts *f, uint32_t i, const atom_fact
              a->segment.begin, (int)(text_length(a->resid) < 20 ? text_length(a->resid) : 20), a->resid.begin);
     const uint32_t site =
         atoms_set_residue(t, &f->residues, i, (text_span){key, key + strlen(key)}, a->residue, a->name);
-    const uint32_t by_mass = a->number != 0 ? a->number : a->has_mass ? element_by_mass(a->mass) : 0;
+    const uint32_t number = find_number(a);
     const int is_massless = a->has_mass && a->mass < SITE_LIGHTEST;
     const int is_atom = a->number != 0 || (a->has_mass && a->mass >= 1.0); /* whatever its name is */
     const uint32_t element = is_massless || (site != 0 && !is_atom) ? SITE_MARK
-                             : by_mass != 0                         ? by_mass
-                                            : molecule_element(t, a->name, a->residue, NAME_ANYWHERE);
+                             : number != 0                          ? number
+                                           : molecule_element(t, a->name, a->residue, NAME_ANYWHERE);
     atoms_set_place(t, i, '\0');
     t->store.id[i] = a->id;
     for (int k = 0; k < 3; k++)
@@ -66,7 +75,8 @@ int atom_facts_add(cgt_trajectory *t, atom_facts *f, uint32_t i, const atom_fact
     f->has_element |= element != 0;
     f->count = i + 1;
     const text_span name = text_length(a->name) > 0 ? a->name : MOLECULE_UNNAMED;
-    return molecule_store(t, &f->names, i, name, element, 1.0f) < 0 ? -1 : store_columns(t, f, i, a);
+    store_columns(t, f, i, a);
+    return molecule_store(t, &f->names, i, name, element, 1.0f);
 }
 
 int atom_facts_finish(cgt_trajectory *t, atom_facts *f, cgt_trajectory_frame *frame)

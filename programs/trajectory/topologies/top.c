@@ -12,6 +12,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum { MOST_WORDS = 12 };
 
@@ -147,8 +148,8 @@ static int read_atom(cgt_trajectory *t, const text_span *word, size_t words)
     top_state *const s = t->state;
     top_molecule *const m = s->last;
     top_atom a = {.charge = NAN, .mass = NAN};
+    const top_atom before = m->atoms > 0 ? s->atom[s->atoms - 1] : a; /* a copy: the array moves where it grows */
     uint64_t number;
-    const top_atom *const before = m->atoms > 0 ? &s->atom[s->atoms - 1] : NULL;
     if (words < 5 || !text_u64(word[0], UINT32_MAX, &number) || number != m->atoms + 1)
         return top_lines_fail(t, &s->lines,
                               "an atom has a number, 1 and so on, a type, and a residue's number and name");
@@ -163,7 +164,7 @@ static int read_atom(cgt_trajectory *t, const text_span *word, size_t words)
         a.charge = NAN;
     if (words > 7 && !text_double(word[7], &a.mass))
         a.mass = NAN;
-    m->residues += before == NULL || before->resid != a.resid || before->residue != a.residue;
+    m->residues += m->atoms == 0 || before.resid != a.resid || before.residue != a.residue;
     m->last_resid = m->atoms == 0 || a.resid > m->last_resid ? a.resid : m->last_resid;
     s->atom[s->atoms++] = a;
     m->atoms++;
@@ -205,12 +206,26 @@ static int read_bond(cgt_trajectory *t, top_section section, const text_span *wo
     return is_chemical(section, function) ? add_bond(t, end[0], end[1]) : 1;
 }
 
+/* As grompp: the name itself, or else the only one that is the same in letters of either case. */
+static uint32_t find_molecule(const word_map *names, text_span name)
+{
+    const uint32_t found = word_map_find(names, name);
+    uint32_t alike = WORD_NONE, count = 0;
+    for (uint32_t i = 0; i < names->count && found == WORD_NONE; i++)
+        if (strlen(names->word[i]) == text_length(name) &&
+            strncasecmp(names->word[i], name.begin, text_length(name)) == 0) {
+            alike = i;
+            count++;
+        }
+    return count == 1 ? alike : found;
+}
+
 /* "SOL 216" */
 static int read_run(cgt_trajectory *t, const text_span *word, size_t words)
 {
     top_state *const s = t->state;
     char name[TEXT_QUOTE_SIZE];
-    top_run run = {.molecule = word_map_find(&s->molecule_names, word[0])};
+    top_run run = {.molecule = find_molecule(&s->molecule_names, word[0])};
     if (run.molecule == WORD_NONE && s->lines.missing > 0)
         return top_lines_fail(
             t, &s->lines,

@@ -78,7 +78,8 @@ static int read_header(cgt_trajectory *t)
     if (strcasecmp(word, "DATASET") != 0 || vtk_word_inside(&s->w, word, header) < 0)
         return t->failed ? -1 : trajectory_fail(t, s->w.line, "DATASET was expected");
     if (strcasecmp(word, "POLYDATA") != 0 && strcasecmp(word, "UNSTRUCTURED_GRID") != 0)
-        return trajectory_fail(t, s->w.line, "the dataset is neither POLYDATA nor UNSTRUCTURED_GRID: it has no points");
+        return trajectory_fail(t, s->w.line,
+                               "the dataset is neither POLYDATA nor UNSTRUCTURED_GRID, which alone are read");
     return 1;
 }
 

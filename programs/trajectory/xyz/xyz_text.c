@@ -62,29 +62,31 @@ static void read_periodic(xyz_state *s, text_span comment)
         s->periodic[1] = s->periodic[2] = s->periodic[0];
 }
 
+/* Finds the word after `key`, "Timestep:", which stands alone. */
+static int find_after(text_span comment, const char *key, text_span *word)
+{
+    text_span value;
+    while (comment_next(&comment, word, &value))
+        if (text_is(*word, key))
+            return comment_next(&comment, word, &value);
+    return 0;
+}
+
+/* Parses the time from Time=0.5, or "Time: 0.5" of LAMMPS. */
 static void read_time(xyz_state *s, text_span comment)
 {
     text_span text;
-    if (!comment_find(comment, "Time", &text) || !comment_numbers(text, 1, &s->time))
+    if (!(comment_find(comment, "Time", &text) || find_after(comment, "Time:", &text)) ||
+        !comment_numbers(text, 1, &s->time))
         s->time = NAN;
 }
 
 /* Parses the step from "Timestep: 100", as LAMMPS writes it, or Timestep=100. */
 static void read_step(xyz_state *s, text_span comment)
 {
-    static const char key[] = "Timestep";
-    s->has_step = 0;
-    text_span value, word;
-    if (comment_find(comment, key, &value)) {
-        s->has_step = text_i64(value, &s->step);
-        return;
-    }
-    while (comment_next(&comment, &word, &value)) {
-        if (text_is(word, "Timestep:")) {
-            s->has_step = comment_next(&comment, &word, &value) && text_i64(word, &s->step);
-            return;
-        }
-    }
+    text_span value;
+    s->has_step = (comment_find(comment, "Timestep", &value) || find_after(comment, "Timestep:", &value)) &&
+                  text_i64(value, &s->step);
 }
 
 /* ---- Columns ------------------------------------------------------------------------------------------------ */

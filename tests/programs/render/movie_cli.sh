@@ -83,6 +83,18 @@ says err 'told.mp4: ffmpeg: deprecated, but fine'
 says out '^movie  *told.mp4$'
 [ "$(cat "$tmp/told.mp4")" = frames ] || fail "told.mp4 is not what ffmpeg wrote"
 
+# childless CODE MOVIE: a run by a program that ignores SIGCHLD, as dash cannot.
+childless() {
+    env --ignore-signal=CHLD true 2>/dev/null || return 0
+    (cd "$tmp" && exec env --ignore-signal=CHLD $emulator "$program" -q -s 64x36 -c $camera -k type -o "$2" run.xyz) \
+        >"$tmp/stdout" 2>"$tmp/stderr" </dev/null
+    got=$?
+    [ $got -eq "$1" ] || fail "$2: exit code $got, not $1, where SIGCHLD is ignored: $(head -n 3 "$tmp/stderr")"
+}
+childless 0 told.mp4
+echo 'exit 3' >>"$tmp/nowhere/ffmpeg"
+childless 1 late.mp4
+
 # stand_in READING THEN: an ffmpeg that reads, writes its number to $tmp/pid, and goes on. start: a run with it.
 stand_in() {
     rm -f "$tmp/pid"

@@ -14,7 +14,8 @@
 typedef struct dcd_form {
     int is_big, marker, is_charmm, fixed, has_fourth;
     uint32_t version; /* of CHARMM; 0: 24 */
-    double cell[6];   /* all 0: none */
+    const char *title;
+    double cell[6]; /* all 0: none */
 } dcd_form;
 
 typedef struct dcd_bytes {
@@ -74,6 +75,7 @@ static void put_header(dcd_bytes *d)
     put(d, 84, f->marker);
     put(d, 1, 4);
     memset(d->bytes + d->size, ' ', 80);
+    memcpy(d->bytes + d->size, f->title != NULL ? f->title : "", f->title != NULL ? strlen(f->title) : 0);
     d->size += 80;
     put(d, 84, f->marker);
     put(d, 4, f->marker);
@@ -188,6 +190,41 @@ TEST(test_cells)
                 fail_msg("row %zu: edge %d has %g", i, k, frame.box_edge[1 + k / 3][k % 3]);
         const char *const warning = cgt_trajectory_take_warning(t);
         assert_true((warning != NULL && strstr(warning, "read as CHARMM's matrix")) == cases[i].is_doubtful);
+    }
+}
+
+/* LAMMPS has the unit of its run in the place of CHARMM's. */
+TEST(test_lammps)
+{
+    static dcd_bytes d;
+    static const dcd_form form = {.marker = 4, .is_charmm = 1, .title = "Written by LAMMPS"};
+    d.form = &form;
+    put_header(&d);
+    put_frame(&d, 0);
+    cgt_trajectory *t = scratch_open(scratch_bytes(".dcd", d.bytes, d.size), NULL);
+    const cgt_trajectory_frame frame = scratch_read(t);
+    assert_int_equal(frame.step, 100);
+    assert_true(isnan(frame.time));
+}
+
+/* What is left out does not change where fixed atoms are. */
+TEST(fixed_atoms_behind_a_site)
+{
+    static dcd_bytes d;
+    static const dcd_form form = {.marker = 4, .is_charmm = 1, .fixed = 1};
+    d.form = &form;
+    put_header(&d);
+    for (unsigned frame = 0; frame < FRAMES; frame++)
+        put_frame(&d, frame);
+    const cgt_trajectory_options options = {
+        .topology = scratch_text(".xyz", "4\n\nX 0 0 0\nC 0 0 0\nC 0 0 0\nC 0 0 0\n"), .leave_out_sites = 1};
+    cgt_trajectory *t = scratch_open(scratch_bytes(".dcd", d.bytes, d.size), &options);
+    for (unsigned number = 0; number < FRAMES; number++) {
+        const cgt_trajectory_frame frame = scratch_read(t);
+        assert_int_equal(frame.count, 3);
+        for (unsigned atom = 1; atom < ATOMS; atom++)
+            scratch_expect_sphere(&frame, atom - 1, place(number, atom, 0), place(number, atom, 1),
+                                  place(number, atom, 2), 1.7f);
     }
 }
 

@@ -5,6 +5,7 @@
 #define _GNU_SOURCE
 #include <fcntl.h>
 #include <math.h>
+#include <pthread.h>
 #include <sys/stat.h>
 
 #include "readers/trajectory_scratch.h"
@@ -257,6 +258,44 @@ TEST(damage_is_refused)
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         scratch_expect_error(scratch_text(cases[i].ending, cases[i].text), NULL, 0, cases[i].what);
+}
+
+typedef struct often {
+    const char *path;
+    int is_good, wrong;
+} often;
+
+static void *read_often(void *argument)
+{
+    often *const o = argument;
+    for (int i = 0; i < 20; i++) {
+        char error[1024] = "";
+        cgt_trajectory_frame frame;
+        cgt_trajectory *const t = (told_open)(o->path, NULL, error, sizeof error);
+        const int status = t != NULL ? (told_read)(t, &frame, error, sizeof error) : -1;
+        const int is_as_it_should = o->is_good ? status == 1 && cgt_trajectory_get_mesh(t)->warnings == 0
+                                               : status == -1 && strstr(error, "index out of range") != NULL;
+        o->wrong += !is_as_it_should;
+        (cgt_trajectory_close)(t);
+    }
+    return NULL;
+}
+
+/* assimp has one log and one last error: each file gets its own nevertheless. */
+TEST(several_at_once)
+{
+    pthread_t threads[4];
+    often of[4];
+    const char *const good = scratch_text(".obj", CUBE_VERTICES CUBE_QUADS);
+    const char *const bad = scratch_text(".obj", CUBE_VERTICES "f 1 2 9\n");
+    for (int i = 0; i < 4; i++) {
+        of[i] = (often){.path = i % 2 ? bad : good, .is_good = i % 2 == 0};
+        assert_int_equal(pthread_create(&threads[i], NULL, read_often, &of[i]), 0);
+    }
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(pthread_join(threads[i], NULL), 0);
+        assert_int_equal(of[i].wrong, 0);
+    }
 }
 
 static void put(unsigned char *bytes, size_t *at, const void *value, size_t size, int big)

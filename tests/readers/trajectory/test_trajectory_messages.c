@@ -156,6 +156,29 @@ TEST(too_many_names)
         strstr(cgt_trajectory_take_warning(t), ":1027: more than 1024 different names: the others share one"));
 }
 
+/* Words of a column that are too many, or too long, are none. */
+TEST(too_many_words)
+{
+    static const char *const name = "label";
+    const char *path = scratch_path(".xyz");
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "1027\nProperties=species:S:1:pos:R:3:label:S:1\n");
+    for (int i = 0; i < 1025; i++)
+        fprintf(file, "C 0 0 0 A%d\n", i);
+    fprintf(file, "C 0 0 0 %064d\nC 0 0 0 A7\n", 0);
+    assert_int_equal(fclose(file), 0);
+    cgt_trajectory *t = scratch_open(path, NULL);
+    scratch_want(t, &name, 1);
+    const cgt_trajectory_frame frame = scratch_read(t);
+    const cgt_trajectory_column *const column = cgt_trajectory_find_column(&frame, name);
+    assert_int_equal(column->words, 1024);
+    assert_true(column->value[1023] == 1024.0f && column->value[1024] == 0.0f && column->value[1025] == 0.0f &&
+                column->value[1026] == 8.0f);
+    assert_non_null(strstr(cgt_trajectory_take_warning(t),
+                           ":1027: the column label has no words such as 'A1024': more than 1024 different names"));
+}
+
 /* ---- Binary files -------------------------------------------------------------------------------------------- */
 
 #define CDF "CDF\1\0\0\0\0"
