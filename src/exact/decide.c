@@ -35,8 +35,10 @@ double cgt_canonical_sphere_t(const cgt_ray *ray, cgt_sphere sphere, bool *far)
     const cgt_sphere_terms e = cgt_sphere_double_terms(ray->line.org, ray->line.dir, sphere);
     double near;
     *far = false;
-    if (cgt_sphere_double_near(e, &near) && (float)near >= ray->t_min)
-        return near;
+    if (cgt_sphere_double_near(e, &near)) { /* a root has one t, whatever the range is */
+        *far = (float)near < ray->t_min;
+        return *far ? cgt_canonical_sphere_far(ray, sphere) : near;
+    }
     const cgt_primitive primitive = {.kind = CGT_KIND_SPHERES, .sphere = sphere};
     cgt_sphere_roots root;
     const bool safe = find_safe_roots(ray, sphere, e, &root);

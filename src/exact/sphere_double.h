@@ -39,9 +39,9 @@
 
 #define CGT_DOUBLE_U 0x1p-53
 
-/* Values whose relative error is at most this are rounded to float as they are: at most 0.51 ulp off. Values with more
- * cancellation are computed in exact arithmetic. */
-#define CGT_DOUBLE_SAFE 0x1p-30
+/* Values whose relative error is at most this, and quotients of two of them, are rounded to float as they are: 2^-31 is
+ * 2^-7 ulp at most, so that they are 0.51 ulp off. Values with more cancellation are computed in exact arithmetic. */
+#define CGT_DOUBLE_SAFE 0x1p-32
 
 /* The quadratic square t^2 - 2 middle t + product = 0 of a line and a sphere, with its discriminant, negative for a
  * miss; distance2 is c.c, size c.c + r^2. */

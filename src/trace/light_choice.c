@@ -5,6 +5,7 @@
 #include "trace/light_choice.h"
 
 #include "builders/bvh/bvh_on_demand.h"
+#include "core/float_environment.h"
 #include "query/tile_limits.h"
 
 #define FEW_POINTS 256u /* fewer go through a BVH if there is one */
@@ -37,7 +38,10 @@ static void begin(const cgt_scene *s, uint64_t points, cgt_light_choice *choice)
 cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, uint64_t points, cgt_trace_settings *settings,
                             cgt_light_choice *choice)
 {
+    cgt_float_environment callers;
+    cgt_float_environment_enter(&callers);
     const bool serves = cgt_tile_supports_light(&s->committed_scene, light);
+    cgt_float_environment_leave(&callers);
     const cgt_result result = cgt_bvh_build_on_demand(s, serves ? 0 : points, &settings->use_bvh);
     const bool gave_up = cgt_flag_is_set(&s->mutable_scene->record.light_gave_up);
     cgt_set_flag(&cgt_whole_scene(s->mutable_scene)->record.points);

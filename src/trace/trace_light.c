@@ -110,10 +110,21 @@ static void leave_out(light_job *job)
     cgt_trace_counter_add(job->counter, &counts);
 }
 
+/* Whether the points are so few that they may be traced as they are, and all take part. */
+static bool are_few_and_live(const light_job *job)
+{
+    cgt_float_environment callers;
+    if (job->points.count > CGT_RAYS_CHUNK)
+        return false;
+    cgt_float_environment_enter(&callers);
+    const bool live = job->scene->context->kernel->light_all_live(&job->points, job->light);
+    cgt_float_environment_leave(&callers);
+    return live;
+}
+
 static cgt_result trace_piece(light_job *job)
 {
-    if (job->scene->in_bands || (job->points.count <= CGT_RAYS_CHUNK &&
-                                 job->scene->context->kernel->light_all_live(&job->points, job->light))) {
+    if (job->scene->in_bands || are_few_and_live(job)) {
         job->order = (cgt_call_order){.as_given = true};
         return trace_ordered(job);
     }

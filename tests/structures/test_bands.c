@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "builders/bands/bands_commit.h"
+#include "dispatch/kernel.h"
 #include "scene/bands.h"
 #include "support/suite.h"
 #include "structures/scenes/band_scenes.h"

@@ -25,7 +25,6 @@ bool CGT_KERNEL(cgt_trace_light)(const cgt_committed_scene *committed_scene, con
                           .counts = counts};
     const uint32_t count = (uint32_t)(end - first);
     p->any_hit = true;
-    p->fast = settings->triangle_test != CGT_TRIANGLE_TEST_AUTO;
     p->triangle_test = settings->triangle_test;
     counts->rays += count;
     for (uint32_t i = 0; i < count; i += LIGHT_PACKET_RAYS)

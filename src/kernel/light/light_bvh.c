@@ -381,11 +381,12 @@ static void light_trace_single_rays(const light_call *c, uint64_t first, uint64_
  * was too much: then nothing has changed. */
 static bool light_trace_points(const light_call *c, light_packet *l, uint32_t first, uint32_t count, uint64_t *work)
 {
-    const uint64_t invalid = c->counts->invalid_rays;
+    const uint64_t invalid = c->counts->invalid_rays, traced = c->counts->bvh_rays;
     if (!light_read_packet(c, first, count, &l->rays)) {
         for (uint32_t k = 0; k < count; k++)
             if (!light_trace_points(c, l, first + k, 1, work)) {
                 c->counts->invalid_rays = invalid;
+                c->counts->bvh_rays = traced;
                 return false;
             }
         return true;

@@ -128,6 +128,7 @@ __attribute__((unused)) static void light_trace_packet(const light_call *c, uint
             light_trace_packet(c, first + k, 1, p);
         return;
     }
+    p->fast = c->settings->triangle_test != CGT_TRIANGLE_TEST_AUTO; /* a packet of unusual rays resets it */
     CGT_KERNEL(cgt_packet_trace)(c->committed_scene, p, c->settings, c->counts);
     light_store_occluded(c, p, first, count);
 }

@@ -68,13 +68,13 @@ CGT_SPU_INLINE vmask resolve_near_roots(const vdouble product[2], vmask outside,
 
 /* Overwrites t and n in some of these lanes, and returns them: t is the near root, and safe, so that
  * cgt_sphere_double_unsafe is 0. The product, d.d times that of the roots, is so far above 0 that the middle has the
- * sign of t. */
+ * sign of t. Not those that the short formula serves: it has found their near root before the range. */
 __attribute__((noinline, unused)) static vmask resolve_spheres_long(const vfloat org[3], const vfloat dir[3],
                                                                     const vfloat sphere[4], vfloat t_min, bool normal,
                                                                     vmask lanes, vfloat *t, vfloat n[3])
 {
     resolve_half h[2];
-    vdouble headroom[2], outside[2], k[2];
+    vdouble headroom[2], outside[2], k[2], shorter[2], from[2], disc[2], least_disc[2];
     vfloat normals[3];
     resolve_directions(dir, h);
     for (int i = 0; i < 2; i++) {
@@ -90,6 +90,10 @@ __attribute__((noinline, unused)) static vmask resolve_spheres_long(const vfloat
         const vdouble half = spux_double_sqrt(rr * dd - (x * x + y * y + z * z));
         h[i].t = product / (middle + half);
         headroom[i] = (middle + half) * half - least * dd;
+        from[i] = cc * CGT_SPHERE_OUTSIDE;
+        shorter[i] = product;
+        disc[i] = middle * middle - dd * product;
+        least_disc[i] = middle * middle * CGT_SPHERE_INSIDE;
         outside[i] = product - least;
         k[i] = spux_vdouble(1) / r;
     }
@@ -97,7 +101,8 @@ __attribute__((noinline, unused)) static vmask resolve_spheres_long(const vfloat
     const vmask ahead = spu_and(spu_cmpgt(near, spux_vfloat(0)), spux_cmpge(near, t_min));
     const vmask safe =
         spu_and(spux_double_above0(headroom[0], headroom[1]), spux_double_above0(outside[0], outside[1]));
-    const vmask safe_lanes = spu_and(spu_and(lanes, ahead), safe);
+    const vmask is_short = spu_andc(spux_double_cmpgt(disc, least_disc), spux_double_cmpgt(from, shorter));
+    const vmask safe_lanes = spu_andc(spu_and(spu_and(lanes, ahead), safe), is_short);
     *t = spux_select(*t, near, safe_lanes);
     if (!normal)
         return safe_lanes;

@@ -105,7 +105,8 @@ CGT_SPU_INLINE void stream_store_records(stream *s, uint32_t i, uint32_t count, 
 }
 
 /* Computes E of all streams, the bounds of where their rays begin and end, and the spread of the origins. starts: rays
- * begin elsewhere than at their origins, from which 2^-86 is nothing. */
+ * begin elsewhere than at their origins. Those that begin there hit what lies behind it where t rounds to 0: by up to
+ * 2^-150, at 2^60 at most. */
 CGT_SPU_INLINE void stream_compute_bounds(stream *s, const stream_bounds *b, bool starts)
 {
     const cgt_bvh *tree = s->call.tree;
@@ -116,8 +117,8 @@ CGT_SPU_INLINE void stream_compute_bounds(stream *s, const stream_bounds *b, boo
         org[a] = !(low <= high) ? 0 : -low > high ? -low : high;
         origin_spread = extent > origin_spread ? extent : origin_spread;
         size = tree_extent > size ? tree_extent : size;
-        s->start_low[a] = starts ? spux_hmin(b->start_low[a]) : low;
-        s->start_high[a] = starts ? spux_hmax(b->start_high[a]) : high;
+        s->start_low[a] = starts ? spux_hmin(b->start_low[a]) : low - 0x1p-85f;
+        s->start_high[a] = starts ? spux_hmax(b->start_high[a]) : high + 0x1p-85f;
         s->end_low[a] = spux_hmin(b->end_low[a]);
         s->end_high[a] = spux_hmax(b->end_high[a]);
     }

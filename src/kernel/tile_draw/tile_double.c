@@ -4,8 +4,8 @@
  * A sphere or a triangle against the pixels of a tile in double precision, pixel by pixel, where the bounds of
  * tile_spheres.h and tile_triangles.h do not hold: primitives around the eye or behind it, primitives that the range's
  * begin may cut, and those so large that single precision is coarser than the tile's depth error. The arithmetic is
- * that of sphere_double.h and triangle_double.h, so a certain result is what decide.h would find; the rest is
- * queued. */
+ * that of sphere_double.h and triangle_double.h, so a certain result is what decide.h would find; the rest is queued. So
+ * are spheres whose t is next to an end of the range, since the short formula may round it to the other side. */
 #include "exact/sphere_double.h"
 #include "exact/triangle_pair.h"
 #include "kernel/tile_draw/tile_queue.h"
@@ -27,7 +27,7 @@ CGT_SPU_INLINE void tile_test_double_sphere(const tile *t, cgt_sphere q, uint32_
                                             uint32_t end, double depth[TILE_ROW_PAIR])
 {
     const cgt_camera_rays *c = t->rays;
-    const double t_min = (double)c->t_min;
+    const double t_min = (double)c->t_min, t_max = (double)c->t_max;
     const cgt_sphere_terms of_eye = cgt_sphere_double_terms(c->eye, c->fwd, q);
     double product = of_eye.product; /* of all rays, but parallel ones */
     const uint64_t unsafe_product =
@@ -44,8 +44,10 @@ CGT_SPU_INLINE void tile_test_double_sphere(const tile *t, cgt_sphere q, uint32_
         const double near = (double)(float)root.near, hit = near >= t_min ? root.near : root.far;
         const double inside = tile_double_depth(t, px, py, hit, false);
         const double known = e.disc < -error ? INFINITY : inside;
+        const double other = root.near * (1 + 0x1p-21), /* beyond the next float */ before = root.near * (1 - 0x1p-21);
+        const uint64_t at_end = ((before <= t_min) & (other >= t_min)) | ((before <= t_max) & (other >= t_max));
         const uint64_t undecided =
-            cgt_sphere_double_unsafe_sum(e, half) | product_error | !(e.disc > error || e.disc < -error);
+            cgt_sphere_double_unsafe_sum(e, half) | product_error | !(e.disc > error || e.disc < -error) | at_end;
         depth[i] = undecided && !(e.disc < -error) ? (double)NAN : known;
     }
 }

@@ -270,7 +270,7 @@ static void tile_flush_runs(tile_work *w, runs *r)
 CGT_SPU_INLINE void tile_append_run(tile_work *w, runs *r, const uint32_t *reference, uint32_t count)
 {
     const uint32_t last = r->runs - 1;
-    for (uint32_t i = 0; i < count; i += 16)
+    for (size_t i = 0; i < count; i += 16)
         __builtin_prefetch(reference + i);
     if (r->runs && r->reference[last] + r->count[last] == reference) { /* cells side by side: one run */
         r->count[last] += count;

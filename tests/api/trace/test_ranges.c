@@ -1,0 +1,113 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Ends of ranges next to a hit, where two formulas round its t to neighbouring floats, or to 0: all calls agree. No
+ * profile of tests/driver: its random cases do not meet them. */
+#include <math.h>
+#include <string.h>
+
+#include "support/scenes.h"
+#include "support/suite.h"
+
+enum { RAYS = 64 /* enough for a stream */ };
+
+/* The t of a ray through all calls, +infinity for none. */
+static float t_of(const cgt_scene *scene, const cgt_single_ray *ray, const cgt_camera *camera)
+{
+    float org[3][RAYS], dir[3][RAYS], t_min[RAYS], t_max[RAYS], t[RAYS], pixel;
+    uint32_t primitive[RAYS];
+    uint8_t occluded[RAYS];
+    cgt_hit hit;
+    for (int i = 0; i < RAYS; i++) {
+        for (int a = 0; a < 3; a++) {
+            org[a][i] = ray->org[a];
+            dir[a][i] = ray->dir[a];
+        }
+        t_min[i] = ray->t_min;
+        t_max[i] = ray->t_max == 0 ? INFINITY : ray->t_max;
+    }
+    assert_int_equal(cgt_trace_ray(scene, ray, &hit, NULL), CGT_OK);
+    for (int ranges = ray->t_min != 0 || ray->t_max != 0; ranges < 2; ranges++) {
+        const cgt_rays rays = {.count = RAYS,
+                               .org = {org[0], org[1], org[2]},
+                               .dir = {dir[0], dir[1], dir[2]},
+                               .t_min = ranges ? t_min : NULL,
+                               .t_max = ranges ? t_max : NULL};
+        const cgt_hits hits = {.t = t, .primitive = primitive};
+        assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
+        assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, NULL), CGT_OK);
+        for (int i = 0; i < RAYS; i++)
+            if (t[i] != hit.t || occluded[i] != (hit.primitive != CGT_INVALID_ID))
+                fail_msg("ray %d: %a, occluded %u; alone %a", i, (double)t[i], occluded[i], (double)hit.t);
+    }
+    if (!camera)
+        return hit.t;
+    cgt_camera view = *camera;
+    cgt_frame frame;
+    view.t_min = ray->t_min;
+    view.t_max = ray->t_max;
+    cgt_frame_init(&frame, 1, 1);
+    frame.t = &pixel;
+    assert_int_equal(cgt_trace_camera(scene, &view, &frame, NULL), CGT_OK);
+    if (pixel != hit.t)
+        fail_msg("a frame has %a, a ray %a", (double)pixel, (double)hit.t);
+    return hit.t;
+}
+
+static cgt_scene *scene_by(cgt_context *context, const float sphere[1][4], cgt_structure structure)
+{
+    const cgt_scene_options options = {.structure = structure};
+    return scene_of(context, &options, sphere, 1);
+}
+
+static const cgt_structure structures[] = {CGT_STRUCTURE_AUTO, CGT_STRUCTURE_LOOSE_GRID, CGT_STRUCTURE_BVH};
+
+/* The short formula rounds the near root to 0x1.ffbff8p-1, the long one to the next float. */
+TEST(a_root_has_one_t)
+{
+    static const float sphere[1][4] = {{0x1.e0348p-11f, 0x1p-28f, -1, 0x1.101dcp-10f}};
+    cgt_context *context = context_make(1, NULL);
+    for (size_t k = 0; k < TEST_COUNT(structures); k++) {
+        cgt_scene *scene = scene_by(context, sphere, structures[k]);
+        const cgt_camera camera = {.target = {0, 0, -1}, .up = {0, 1, 0}};
+        cgt_single_ray ray = {.dir = {0, 0, -1}};
+        const float near = t_of(scene, &ray, &camera);
+        assert_true(near == 0x1.ffbff8p-1f);
+        ray.t_min = ray.t_max = near;
+        assert_true(t_of(scene, &ray, &camera) == near);
+        ray.t_min = nextafterf(near, 2);
+        ray.t_max = 0;
+        assert_true(t_of(scene, &ray, &camera) > 1);
+        ray.t_min = 0;
+        ray.t_max = nextafterf(near, 0);
+        assert_true(t_of(scene, &ray, &camera) == INFINITY);
+        cgt_scene_release(scene);
+    }
+    cgt_context_release(context);
+}
+
+/* A surface so little behind the origin that t rounds to -0 counts. */
+TEST(behind_the_origin_by_nothing)
+{
+    static const float point[1][4] = {{0, 0, 0, 0}}, corner[9] = {0, 0, 0, 0.9f, 0, 0, 0, 0.9f, 0};
+    static const cgt_single_ray rays[] = {{.org = {1e-28f, 0, 0}, .dir = {0x1p59f, 0, 0}},
+                                          {.org = {0.25f, 0.25f, 1e-28f}, .dir = {0, 0, 0x1p59f}}};
+    const cgt_triangles triangle = {.count = 1, .vertex_count = 3, .vertices = cgt_floats(corner, 0)};
+    cgt_context *context = context_make(1, NULL);
+    for (size_t k = 0; k < TEST_COUNT(structures); k++)
+        for (int kind = 0; kind < 2; kind++) {
+            cgt_scene *scene = scene_by(context, point, structures[k]);
+            if (kind) {
+                const cgt_spheres none = {.count = 0};
+                uint32_t geometry = 0;
+                assert_int_equal(cgt_scene_set_spheres(scene, &geometry, &none), CGT_OK);
+                assert_int_equal(cgt_scene_set_triangles(scene, NULL, &triangle), CGT_OK);
+                assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+            }
+            assert_true(t_of(scene, &rays[kind], NULL) == 0);
+            cgt_scene_release(scene);
+        }
+    cgt_context_release(context);
+}
+
+SEEDED_SUITE("test_ranges", NULL, NULL)
