@@ -318,8 +318,8 @@ static void check_name(const char *pattern, uint64_t number, const char *expecte
 
 TEST(names_follow_patterns)
 {
-    static const char *const wrong[] = {"",  "out/",     "%s.png",  "%d%d.png", "%04x.png",
-                                        "%", "a%0d.png", "%4d.png", "%n",       "%010d.png"};
+    static const char *const wrong[] = {"",         "out/",    "%s.png", "%d%d.png",  "%04x.png", "%",
+                                        "a%0d.png", "%4d.png", "%n",     "%010d.png", "%d/a.png"};
     char error[200], name[8];
     out_path path;
     check_name("out/f_%04d.png", 7, "out/f_0007.png");
