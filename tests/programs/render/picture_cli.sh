@@ -527,6 +527,10 @@ same given by_file "a settings file draws another picture than its command line"
 { printf '\357\273\277' && cat "$tmp/paper.txt"; } >"$tmp/marked.txt" # a byte-order mark, as editors write it
 draw by_marked --settings marked.txt row.xyz
 same given by_marked "a byte-order mark changes the settings"
+draw by_short --se paper.txt row.xyz
+same given by_short "--settings that is shortened"
+draw by_shorter --setting=paper.txt row.xyz
+same given by_shorter "--settings that is shortened, with its value"
 draw overridden --settings=paper.txt --style plain row.xyz
 differs given overridden "an option after --settings"
 printf 'style = paper\nno-such-option\n' >"$tmp/wrong.txt"
@@ -539,6 +543,8 @@ printf 'first\n' >"$tmp/wrong.txt"
 refuses 2 'wrong.txt:1: first: the option takes a value' --settings wrong.txt row.xyz
 printf 'settings = wrong.txt\n' >"$tmp/wrong.txt"
 refuses 2 'wrong.txt:1: ' --settings wrong.txt row.xyz
+printf 'setting = paper.txt\n' >"$tmp/wrong.txt"
+refuses 2 'wrong.txt:1: "setting" is no option' --settings wrong.txt row.xyz
 refuses 2 'missing.txt: ' --settings missing.txt row.xyz
 
 # A picture says how it was made: by its own text it is made again.
