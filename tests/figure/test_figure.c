@@ -111,6 +111,23 @@ TEST(values_count_in_the_order_in_which_they_were_set)
     cgt_figure_release(figure);
 }
 
+/* Settings are lines, which no value ends. */
+TEST(a_value_is_one_line)
+{
+    static const char lines[] = "size = 48x32\ntitle = a b  c\nshow = heat > 1   && heat < 5\n";
+    cgt_figure *const figure = make_figure(), *const other = make_figure();
+    char text[200];
+    assert_int_equal(cgt_figure_set(figure, "title", "a\nb\r\nc"), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "show", "heat > 1\n  && heat < 5"), CGT_OK);
+    cgt_figure_get(figure, NULL, text, sizeof text);
+    assert_string_equal(text, lines);
+    assert_int_equal(cgt_figure_set_lines(other, text), CGT_OK);
+    cgt_figure_get(other, NULL, text, sizeof text);
+    assert_string_equal(text, lines);
+    cgt_figure_release(figure);
+    cgt_figure_release(other);
+}
+
 /* Lines are checked together, and set together or not at all. */
 TEST(lines_are_set_at_once)
 {

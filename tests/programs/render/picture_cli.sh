@@ -533,6 +533,15 @@ draw by_shorter --setting=paper.txt row.xyz
 same given by_shorter "--settings that is shortened, with its value"
 draw overridden --settings=paper.txt --style plain row.xyz
 differs given overridden "an option after --settings"
+# A value may have line feeds: they are blanks, and end no setting.
+draw in_lines -c $camera --show 'charge < 30
+    && x < 5' row.xyz
+draw in_line -c $camera --show 'charge < 30 && x < 5' row.xyz
+same in_lines in_line "a value over two lines"
+run 0 --print-settings --title 'over
+transparent' row.xyz
+says out '^title = over transparent$'
+says out '^# transparent$'
 printf 'style = paper\nno-such-option\n' >"$tmp/wrong.txt"
 refuses 2 'no-such-option' --settings wrong.txt row.xyz
 printf 'style = paper\n--style plain\n' >"$tmp/wrong.txt"
