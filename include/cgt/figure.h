@@ -41,9 +41,9 @@ typedef struct cgt_figure cgt_figure;
 /* ---- Data --------------------------------------------------------------------------------------------------- */
 
 /* A column: what each particle or vertex has, floats, doubles or halves; id, type and element may be whole numbers.
- * Some names mean something: radius, id, type, element (atomic number), velocity (three numbers), normal (three; of
- * vertices), rgb (three, linear; of particles, where no option says what colours show). Others are for formulas and
- * colours. */
+ * Some names mean something: radius, id, type, element (atomic number; these four of particles), velocity (three
+ * numbers), normal (three; of vertices), rgb (three, linear; of particles, where no option says what colours show).
+ * Others are for formulas and colours. */
 typedef struct cgt_figure_column {
     const char *name;
     cgt_array values;

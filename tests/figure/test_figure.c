@@ -458,6 +458,45 @@ TEST(kinds_do_not_change_in_a_run)
     cgt_figure_release(figure);
 }
 
+static float corner[4][3] = {{0.0f, 0.0f, 0.0f}, {4.0f, 0.0f, 0.0f}, {0.0f, 4.0f, 0.0f}, {0.0f, 0.0f, 4.0f}};
+static const uint32_t closed_mesh[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+
+static cgt_figure_data tetrahedron(const uint32_t *corners)
+{
+    return (cgt_figure_data){.points = {4, cgt_floats(corner[0], 0), NULL, 0, 0.0f},
+                             .triangles = {4, cgt_uint32s(corners, 0)}};
+}
+
+/* They are numbers of vertices, of which there may be fewer than triangles: for formulas alone. */
+TEST(columns_of_meshes_are_of_vertices)
+{
+    static const uint32_t number[] = {0, 0, 0, 8};
+    cgt_figure *const figure = make_figure();
+    cgt_figure_data data = tetrahedron(closed_mesh);
+    uint8_t plain[BYTES], then[BYTES];
+    uint32_t twice[24];
+    for (int i = 0; i < 24; i++)
+        twice[i] = closed_mesh[i % 12];
+    data.triangles = (cgt_figure_triangles){8, cgt_uint32s(twice, 0)};
+    const cgt_figure_column whole[] = {{.name = "id", .values = cgt_uint32s(number, 0)},
+                                       {.name = "type", .values = cgt_uint32s(number, 0)},
+                                       {.name = "element", .values = cgt_uint32s(number, 0)}};
+    assert_int_equal(cgt_figure_set(figure, "color", "id"), CGT_OK);
+    draw(figure, &data, plain);
+    data.points.columns = whole;
+    data.points.column_count = 3;
+    assert_int_equal(cgt_figure_set(figure, "color", "id"), CGT_OK);
+    draw(figure, &data, then);
+    assert_memory_equal(then, plain, sizeof then);
+    assert_int_equal(cgt_figure_set(figure, "color", "element + type"), CGT_OK);
+    draw(figure, &data, then);
+    assert_memory_not_equal(then, plain, sizeof then);
+    assert_int_equal(cgt_figure_set(figure, "color", "type"), CGT_OK);
+    assert_int_equal(cgt_figure_show(figure, &data), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "the triangles have no types");
+    cgt_figure_release(figure);
+}
+
 /* Walls are copied, and taken away again. */
 TEST(meshes_stand_among_particles)
 {
