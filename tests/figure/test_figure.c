@@ -497,6 +497,48 @@ TEST(columns_of_meshes_are_of_vertices)
     cgt_figure_release(figure);
 }
 
+/* A shown frame is the figure's own, whatever becomes of the reader's. */
+TEST(frames_are_copied)
+{
+    uint32_t index[12], ids[4] = {1, 2, 3, 4};
+    float values[4] = {1.0f, 2.0f, 3.0f, 4.0f}, spheres[16] = {0.0f};
+    uint8_t element[4] = {6, 6, 6, 6}, before[BYTES], after[BYTES];
+    char told[200];
+    cgt_trajectory_column column = {.name = "heat", .value = values};
+    cgt_trajectory_frame frame = {.kind = CGT_TRAJECTORY_TRIANGLES,
+                                  .count = 4,
+                                  .triangles = 4,
+                                  .index = index,
+                                  .position = corner[0],
+                                  .angstrom = 1.0f,
+                                  .box_min = {1.0f}};
+    const cgt_figure_data data = {.frame = &frame};
+    const cgt_image image = {.bytes = after};
+    cgt_figure *const figure = make_figure();
+    memcpy(index, closed_mesh, sizeof index);
+    draw(figure, &data, before);
+    memset(index, 0, sizeof index);
+    assert_int_equal(cgt_figure_draw(figure, &image, NULL), CGT_OK);
+    assert_memory_equal(after, before, sizeof after);
+    assert_int_equal(cgt_figure_describe(figure, 3, told, sizeof told), strlen("triangle 3, vertices 1, 2, 3\n"));
+    assert_string_equal(told, "triangle 3, vertices 1, 2, 3\n");
+    frame = (cgt_trajectory_frame){.kind = CGT_TRAJECTORY_SPHERES,
+                                   .count = 4,
+                                   .xyzr = spheres,
+                                   .id = ids,
+                                   .element = element,
+                                   .angstrom = 1.0f,
+                                   .columns = 1,
+                                   .column = &column,
+                                   .box_min = {1.0f}};
+    spheres[7] = 0.5f;
+    assert_int_equal(cgt_figure_unset(figure, NULL), CGT_OK); /* a run of its own */
+    assert_int_equal(cgt_figure_show(figure, &data), CGT_OK);
+    cgt_figure_describe(figure, 1, told, sizeof told);
+    assert_string_equal(told, "sphere 1\nat  0, 0, 0\nradius  0.5\n");
+    cgt_figure_release(figure);
+}
+
 /* Walls are copied, and taken away again. */
 TEST(meshes_stand_among_particles)
 {
