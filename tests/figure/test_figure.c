@@ -539,6 +539,22 @@ TEST(frames_are_copied)
     cgt_figure_release(figure);
 }
 
+/* Glass has the bodies of its own triangles. */
+TEST(bodies_are_those_of_the_mesh)
+{
+    static const uint32_t open_mesh[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 3, 2};
+    cgt_figure *const figure = make_figure();
+    cgt_figure_data data = tetrahedron(closed_mesh);
+    uint8_t rgb[BYTES];
+    assert_int_equal(cgt_figure_set_lines(figure, "bounces = 2\nmaterial = all=glass\n"), CGT_OK);
+    draw(figure, &data, rgb);
+    data = tetrahedron(open_mesh);
+    data.number = 1;
+    assert_int_equal(cgt_figure_show(figure, &data), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "glass must be closed");
+    cgt_figure_release(figure);
+}
+
 /* Walls are copied, and taken away again. */
 TEST(meshes_stand_among_particles)
 {
