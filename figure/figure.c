@@ -358,6 +358,7 @@ int cgt_figure_check_frame(cgt_figure *figure)
 int cgt_figure_build(cgt_figure *figure, int is_kept)
 {
     const frame_sequence *const s = &figure->sequence;
+    figure->has_begun = 0;
     if (!figure->scene && cgt_figure_make_scene(figure))
         return -1;
     if (cgt_coloring_apply(&figure->coloring, &s->frame, s->speed))

@@ -138,6 +138,7 @@ void cgt_figure_unshow(cgt_figure *figure)
     cgt_figure_bounce_release(figure->bounce);
     figure->scene = NULL;
     figure->bounce = NULL;
+    figure->has_begun = 0;
     figure->has_geometry = s->has_sticks = s->has_facets = s->has_mesh = s->has_floor = 0;
     memset(s->has_layer_spheres, 0, sizeof s->has_layer_spheres);
     memset(s->has_layer_bonds, 0, sizeof s->has_layer_bonds);

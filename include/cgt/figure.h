@@ -251,7 +251,8 @@ CGT_API void cgt_figure_set_stop(cgt_figure *figure, bool (*stop)(const void *us
 CGT_API cgt_result cgt_figure_draw(cgt_figure *figure, const cgt_image *image, const cgt_trace_options *options);
 
 /* The same in steps, as cgt_picture_begin, _step and _read; the background is never transparent. After the last step
- * the picture is that of cgt_figure_draw. Errors: as cgt_figure_draw */
+ * the picture is that of cgt_figure_draw. Errors: as cgt_figure_draw; INVALID_ARGUMENT (no picture has begun since a
+ * frame was shown or released, or an option set) */
 CGT_API cgt_result cgt_figure_begin(cgt_figure *figure);
 CGT_API cgt_result cgt_figure_step(cgt_figure *figure, uint32_t samples, uint32_t *left);
 CGT_API cgt_result cgt_figure_read(cgt_figure *figure, const cgt_image *image);

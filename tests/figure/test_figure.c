@@ -1047,6 +1047,32 @@ TEST(steps_make_the_whole_picture)
     cgt_figure_release(figure);
 }
 
+/* A picture ends with the scene that it is of. */
+TEST(steps_end_with_the_frame)
+{
+    cgt_figure *const figure = make_figure();
+    const cgt_figure_data data = grains();
+    uint8_t rgb[BYTES];
+    const cgt_image image = {.bytes = rgb};
+    uint32_t left;
+    cgt_figure_frame *const one = keep(figure, &data), *const other = keep(figure, &data);
+    assert_int_equal(cgt_figure_show_frame(figure, one), CGT_OK);
+    assert_int_equal(cgt_figure_begin(figure), CGT_OK);
+    assert_int_equal(cgt_figure_draw_quick(figure, CGT_FIGURE_SHADOWS, 2, &image), CGT_OK);
+    assert_int_equal(cgt_figure_step(figure, 1, &left), CGT_OK);
+    assert_int_equal(cgt_figure_show_frame(figure, other), CGT_OK);
+    assert_int_equal(cgt_figure_step(figure, 1, &left), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "no picture has begun");
+    assert_int_equal(cgt_figure_begin(figure), CGT_OK);
+    assert_int_equal(cgt_figure_draw(figure, &image, NULL), CGT_OK);
+    assert_int_equal(cgt_figure_step(figure, 1, &left), CGT_OK);
+    cgt_figure_frame_release(other);
+    assert_int_equal(cgt_figure_read(figure, &image), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "no picture has begun");
+    cgt_figure_frame_release(one);
+    cgt_figure_release(figure);
+}
+
 static bool always(const void *user)
 {
     (void)user;
