@@ -196,8 +196,9 @@ cgt_result cgt_figure_draw_quick(cgt_figure *figure, cgt_figure_quality quality,
                                  const cgt_image *image)
 {
     const size_t channels = image->channels ? image->channels : 3;
+    const int has_gaps = image->row_stride && image->row_stride != figure->options.width * channels;
     cgt_look looks[FIGURE_LOOKS];
-    if (quality >= CGT_FIGURE_QUALITIES || !shrink || !image->bytes || image->row_stride)
+    if (quality >= CGT_FIGURE_QUALITIES || !shrink || !image->bytes || has_gaps)
         return refuse(figure, "a quick picture is one of bytes, without gaps between its rows");
     cgt_result result = make_ready(figure, 0);
     if (result)

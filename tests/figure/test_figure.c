@@ -1085,7 +1085,8 @@ TEST(quick_pictures_are_plain)
     cgt_figure *const figure = make_figure();
     const cgt_figure_data data = grains();
     static uint8_t whole[BYTES], quick[BYTES], four[4 * WIDTH * HEIGHT];
-    const cgt_image image = {.bytes = quick}, wide = {.bytes = four, .channels = 4}, none = {.channels = 3};
+    const cgt_image image = {.bytes = quick}, wide = {.bytes = four, .channels = 4, .row_stride = 4 * WIDTH},
+                    none = {.channels = 3}, gaps = {.bytes = four, .row_stride = 4 * WIDTH};
     assert_int_equal(cgt_figure_set(figure, "antialias", "1"), CGT_OK);
     assert_int_equal(cgt_figure_set(figure, "style", "plain"), CGT_OK);
     draw(figure, &data, whole);
@@ -1102,6 +1103,7 @@ TEST(quick_pictures_are_plain)
                                 quick + 3 * ((ptrdiff_t)(y / 3 * 3) * WIDTH + x / 3 * 3), 3);
     assert_int_equal(cgt_figure_draw_quick(figure, CGT_FIGURE_PLAIN, 0, &image), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(cgt_figure_draw_quick(figure, CGT_FIGURE_PLAIN, 1, &none), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_draw_quick(figure, CGT_FIGURE_PLAIN, 1, &gaps), CGT_ERROR_INVALID_ARGUMENT);
     expect_message(figure, "a quick picture is one of bytes");
     assert_int_equal(cgt_figure_set(figure, "style", "soft"), CGT_OK);
     assert_int_equal(cgt_figure_show(figure, &data), CGT_OK);
