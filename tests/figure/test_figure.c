@@ -764,6 +764,32 @@ TEST(options_change_what_is_shown)
     cgt_figure_release(figure);
 }
 
+/* Bonds of a kept frame are guessed where options ask for them, as if they had been asked for from the start. */
+TEST(kept_frames_have_bonds)
+{
+    static float chain[3][3] = {{0.0f, 0.0f, 0.0f}, {1.5f, 0.0f, 0.0f}, {3.0f, 0.0f, 0.0f}};
+    static const uint8_t carbon[] = {6, 6, 6};
+    const cgt_figure_column column = {.name = "element", .values = cgt_uint8s(carbon, 0)};
+    const cgt_figure_data data = {.points = {3, cgt_floats(chain[0], 0), &column, 1, 0.0f}};
+    cgt_figure *const figure = make_figure(), *const fresh = make_figure();
+    uint8_t then[BYTES], expected[BYTES];
+    assert_int_equal(cgt_figure_set(figure, "radius-scale", "0.2"), CGT_OK);
+    cgt_figure_frame *const frame = keep(figure, &data);
+    assert_int_equal(cgt_figure_show_frame(figure, frame), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "bonds", NULL), CGT_OK);
+    assert_non_null(strstr(cgt_figure_take_notice(figure), "guessed by the covalent radii"));
+    draw_shown(figure, then);
+    assert_int_equal(cgt_figure_set_lines(fresh, "radius-scale = 0.2\nbonds\n"), CGT_OK);
+    draw(fresh, &data, expected);
+    assert_memory_equal(then, expected, sizeof then);
+    assert_int_equal(cgt_figure_show_frame(figure, frame), CGT_OK);
+    draw_shown(figure, then);
+    assert_memory_equal(then, expected, sizeof then);
+    cgt_figure_release(figure);
+    cgt_figure_release(fresh);
+    cgt_figure_frame_release(frame);
+}
+
 /* Materials that no option has any more, while light still bounces, in a frame of more spheres than had one: that such
  * a material is asked for, memory checkers alone see. */
 TEST(materials_go_with_their_option)
