@@ -204,6 +204,9 @@ void cgt_figure_camera_at(const cgt_figure *figure, uint64_t number, cgt_camera 
 enum { FIGURE_CAMERA_SIZE = 256 }; /* ten numbers of at most 24 letters */
 void cgt_figure_name_camera(const cgt_figure *figure, const cgt_camera *camera, char text[FIGURE_CAMERA_SIZE]);
 
+/* As cgt_figure_get_chosen of all settings, but those of a run's pictures, whose camera may move (figure_tell.c). */
+size_t cgt_figure_tell_run(const cgt_figure *figure, char *text, size_t size);
+
 /* Ends all that was made by options, but neither survey nor path. */
 void cgt_figure_unmake(cgt_figure *figure);
 

@@ -163,7 +163,8 @@ CGT_API cgt_result cgt_figure_unset(cgt_figure *figure, const char *name);
 CGT_API size_t cgt_figure_get(const cgt_figure *figure, const char *name, char *text, size_t size);
 
 /* Copies settings by which another figure makes the same picture of the shown frame: what was set, and in the place of
- * automatic ones camera, size, antialias, color, range, floor-axis and floor-place as they were chosen.
+ * automatic ones camera, size, antialias, color, range, floor-axis and floor-place as they were chosen; log-scale only
+ * where the colours have it.
  *   name   the value of one of these seven; NULL: all settings
  * Returns as cgt_figure_get; 0: nothing was chosen yet. */
 CGT_API size_t cgt_figure_get_chosen(const cgt_figure *figure, const char *name, char *text, size_t size);

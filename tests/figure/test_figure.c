@@ -1000,6 +1000,32 @@ TEST(what_was_chosen_makes_the_picture)
     cgt_figure_release(other);
 }
 
+/* So it does where the view says which axis is height, and where the scale is logarithmic, or could not be. */
+TEST(what_was_chosen_is_accepted)
+{
+    static const char *const settings[] = {"view = top\ncolor = height\n", "color = id\nlog-scale\n",
+                                           "color = height\nlog-scale\n", "color = red\nlog-scale\n"};
+    static const char *const chosen[] = {"\ncolor = y\n", "\ncolor = id\nrange = 1,49\nlog-scale\n",
+                                         "\ncolor = height\nrange = ", "\ncolor = ff0000\n"};
+    const cgt_figure_data data = grains();
+    uint8_t first[BYTES], again[BYTES];
+    char text[1000];
+    for (size_t i = 0; i < TEST_COUNT(settings); i++) {
+        cgt_figure *const figure = make_figure(), *const other = make_figure();
+        assert_int_equal(cgt_figure_set_lines(figure, settings[i]), CGT_OK);
+        draw(figure, &data, first);
+        cgt_figure_get_chosen(figure, NULL, text, sizeof text);
+        if (!strstr(text, chosen[i]))
+            fail_msg("no \"%s\" in \"%s\"", chosen[i], text);
+        assert_int_equal(strstr(text, "log-scale") != NULL, i == 1);
+        assert_int_equal(cgt_figure_set_lines(other, text), CGT_OK);
+        draw(other, &data, again);
+        assert_memory_equal(again, first, sizeof first);
+        cgt_figure_release(figure);
+        cgt_figure_release(other);
+    }
+}
+
 /* Speeds are those of frames that follow each other; the first one's are those towards the second. */
 TEST(kept_frames_have_speeds)
 {

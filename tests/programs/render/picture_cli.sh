@@ -565,6 +565,14 @@ if command -v oiiotool >/dev/null 2>&1; then
     run 0 -q -s 96x54 -o made_again.png --settings again.txt row.xyz
     oiiotool --diff --fail 0 "$tmp/automatic.png" "$tmp/made_again.png" >/dev/null ||
         fail "the settings inside of a picture draw another one: $(cat "$tmp/again.txt")"
+    for options in '--view top -k height --floor' '--zoom 2 --up y -k id --log-scale' '-k height --log-scale --radius 0.5'; do
+        run 0 -q -s 96x54 -o seen.png $options row.xyz
+        oiiotool --info -v "$tmp/seen.png" |
+            awk '/^ *Settings: "/ { sub(/^ *Settings: "/, ""); inside = 1 } inside && /^"$/ { exit } inside' >"$tmp/again.txt"
+        run 0 -q -s 96x54 -o seen_again.png --settings again.txt row.xyz
+        oiiotool --diff --fail 0 "$tmp/seen.png" "$tmp/seen_again.png" >/dev/null ||
+            fail "$options: the settings inside draw another picture: $(cat "$tmp/again.txt")"
+    done
     # So do EXR, JPEG and TIFF, where there are such files.
     if (cd "$tmp" && $emulator "$program" -q -s 96x54 -o automatic.tif --style=paper -k charge --box row.xyz) \
         >/dev/null 2>&1; then
