@@ -149,8 +149,12 @@ int cgt_figure_options_finish(figure_options *o, char *error, size_t size)
     take_style(&o->picture);
     if (o->logarithmic && (o->is_symmetric || (o->has_range && !(o->range_min > 0.0))))
         return cgt_refuse(error, size, "--log-scale: the range must be above 0");
-    if (o->keys.count && o->orbit != 0.0f)
-        return cgt_refuse(error, size, "--camera-keys and --orbit exclude each other");
+    if (o->keys.count && (o->has_camera || o->orbit != 0.0f))
+        return cgt_refuse(error, size, "--camera-keys and --%s exclude each other", o->has_camera ? "camera" : "orbit");
+    if (o->keys.count) {
+        o->has_camera = 1;
+        o->camera = o->keys.key[0];
+    }
     if (!o->samples)
         o->samples = may_have(o, 2) ? 2 : 1;
     if (!may_have(o, o->samples))
