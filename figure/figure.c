@@ -358,6 +358,7 @@ int cgt_figure_check_frame(cgt_figure *figure)
 int cgt_figure_build(cgt_figure *figure, int is_kept)
 {
     const frame_sequence *const s = &figure->sequence;
+    figure->has_begun = 0;
     if (!figure->scene && cgt_figure_make_scene(figure))
         return -1;
     if (cgt_coloring_apply(&figure->coloring, &s->frame, s->speed))
@@ -365,7 +366,7 @@ int cgt_figure_build(cgt_figure *figure, int is_kept)
     if (cgt_figure_scene_prepare(figure, &s->frame, figure->coloring.index, &figure->drawn, figure->message,
                                  sizeof figure->message))
         return -1;
-    if (!is_kept && cgt_frame_copy_set(&figure->copy, &s->frame))
+    if (!is_kept && (cgt_frame_copy_set(&figure->copy, &s->frame) || cgt_frame_copy_index(&figure->copy)))
         return cgt_figure_fail(figure, "out of memory for a copy of frame %" PRIu64, s->frame.number);
     figure->frame = is_kept ? &s->frame : &figure->copy.frame;
     figure->speed_from = s->speed_from;

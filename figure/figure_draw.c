@@ -325,6 +325,7 @@ void cgt_figure_close_picture(cgt_figure *figure)
 {
     cgt_picture_release(figure->drawing);
     figure->drawing = NULL;
+    figure->has_begun = 0;
     for (int i = 0; i < CGT_FIGURE_QUALITIES; i++) {
         cgt_picture_release(figure->quick[i]);
         figure->quick[i] = NULL;

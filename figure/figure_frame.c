@@ -138,18 +138,23 @@ void cgt_figure_unshow(cgt_figure *figure)
     cgt_figure_bounce_release(figure->bounce);
     figure->scene = NULL;
     figure->bounce = NULL;
+    figure->has_begun = 0;
     figure->has_geometry = s->has_sticks = s->has_facets = s->has_mesh = s->has_floor = 0;
     memset(s->has_layer_spheres, 0, sizeof s->has_layer_spheres);
     memset(s->has_layer_bonds, 0, sizeof s->has_layer_bonds);
 }
 
-/* The frame becomes the sequence's, with what belongs to it. */
+/* The frame becomes the sequence's, with what belongs to it. Its bonds are guessed here where they were not asked for
+ * when it was kept. */
 static int take_kept(cgt_figure *figure, const cgt_figure_frame *frame)
 {
     frame_sequence *const s = &figure->sequence;
     s->frame = *frame->data;
     s->speed = frame->speed;
     s->speed_from = frame->speed_from;
+    if (s->atoms.wants_bonds && s->frame.bond_source == CGT_TRAJECTORY_BONDS_UNKNOWN &&
+        cgt_frame_atoms_complete(&s->atoms, &s->frame, figure->message, sizeof figure->message))
+        return -1;
     return cgt_frame_sequence_bind_all(s, figure->message, sizeof figure->message);
 }
 

@@ -208,10 +208,14 @@ int cgt_figure_choose_colors(cgt_figure *figure)
     figure->coloring.axis = axis;
     figure->coloring.formula = figure->formula;
     figure->coloring.categories = &figure->categories;
-    figure->coloring.logarithmic = o->logarithmic && !coloring_has_kinds(by) && by != COLORING_PLAIN && min > 0.0;
+    const int has_range = cgt_coloring_has_range(&figure->coloring);
+    figure->coloring.logarithmic = o->logarithmic && has_range && min > 0.0;
     cgt_figure_scene_color(figure);
-    if (o->logarithmic && !figure->coloring.logarithmic)
-        cgt_notices_add(&figure->notices, "--log-scale: there is nothing above 0 to scale: the scale is linear");
+    if (o->logarithmic && !has_range)
+        cgt_notices_add(&figure->notices, "--log-scale: the colours are not those of values: there is no scale");
+    else if (o->logarithmic && !figure->coloring.logarithmic)
+        cgt_notices_add(&figure->notices, "--log-scale: the range begins at %s, not above 0: the scale is linear",
+                        cgt_number(6, min).text);
     return 0;
 }
 

@@ -93,6 +93,7 @@ struct cgt_figure {
 
     /* Of <cgt/figure.h> alone. */
     int is_open, is_settled, is_surveying, has_bonds_told;
+    int has_begun;           /* drawing has a picture of the scene as it is */
     survey_team team;        /* while is_surveying */
     uint64_t next;           /* number of the frame that follows the last one */
     figure_data data;        /* the frame at hand, of the caller's columns */
@@ -202,6 +203,9 @@ void cgt_figure_camera_at(const cgt_figure *figure, uint64_t number, cgt_camera 
 /* Writes a camera as the option camera takes it, in the data's coordinates. */
 enum { FIGURE_CAMERA_SIZE = 256 }; /* ten numbers of at most 24 letters */
 void cgt_figure_name_camera(const cgt_figure *figure, const cgt_camera *camera, char text[FIGURE_CAMERA_SIZE]);
+
+/* As cgt_figure_get_chosen of all settings, but those of a run's pictures, whose camera may move (figure_tell.c). */
+size_t cgt_figure_tell_run(const cgt_figure *figure, char *text, size_t size);
 
 /* Ends all that was made by options, but neither survey nor path. */
 void cgt_figure_unmake(cgt_figure *figure);

@@ -123,6 +123,7 @@ cgt_result cgt_figure_draw(cgt_figure *figure, const cgt_image *image, const cgt
     result = cgt_picture_set_options(figure->drawing, &settings);
     if (!result)
         result = cgt_figure_trace(figure, options);
+    figure->has_begun = !result;
     return finish(figure, figure->drawing, result);
 }
 
@@ -139,18 +140,19 @@ cgt_result cgt_figure_begin(cgt_figure *figure)
         const uint32_t count = cgt_figure_begin_picture(figure, looks);
         result = cgt_picture_begin(figure->drawing, figure->scene, &figure->camera, looks, count, NULL);
     }
+    figure->has_begun = !result;
     return finish(figure, figure->drawing, result);
 }
 
 cgt_result cgt_figure_step(cgt_figure *figure, uint32_t samples, uint32_t *left)
 {
-    return figure->drawing ? finish(figure, figure->drawing, cgt_picture_step(figure->drawing, samples, left))
-                           : refuse(figure, "no picture has begun");
+    return figure->has_begun ? finish(figure, figure->drawing, cgt_picture_step(figure->drawing, samples, left))
+                             : refuse(figure, "no picture has begun");
 }
 
 cgt_result cgt_figure_read(cgt_figure *figure, const cgt_image *image)
 {
-    if (!figure->drawing)
+    if (!figure->has_begun)
         return refuse(figure, "no picture has begun");
     figure->image = *image;
     const cgt_result result = cgt_picture_read(figure->drawing, image);
@@ -194,8 +196,9 @@ cgt_result cgt_figure_draw_quick(cgt_figure *figure, cgt_figure_quality quality,
                                  const cgt_image *image)
 {
     const size_t channels = image->channels ? image->channels : 3;
+    const int has_gaps = image->row_stride && image->row_stride != figure->options.width * channels;
     cgt_look looks[FIGURE_LOOKS];
-    if (quality >= CGT_FIGURE_QUALITIES || !shrink || !image->bytes || image->row_stride)
+    if (quality >= CGT_FIGURE_QUALITIES || !shrink || !image->bytes || has_gaps)
         return refuse(figure, "a quick picture is one of bytes, without gaps between its rows");
     cgt_result result = make_ready(figure, 0);
     if (result)

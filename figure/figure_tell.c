@@ -129,15 +129,15 @@ size_t cgt_figure_describe(const cgt_figure *figure, uint32_t element, char *tex
 
 /* ---- What was chosen ---------------------------------------------------------------------------------------- */
 
-/* Options that are written by what was chosen, or that a given camera excludes. */
-static int is_replaced(const char *name)
+/* Options that are written by what was chosen, or that a given camera excludes. In settings of a run its camera moves
+ * on. */
+static int is_replaced(const char *name, int is_run)
 {
     static const char names[] =
-        " size antialias camera camera-keys orbit view up fov zoom color category range floor-axis "
-        "floor-place ";
+        " size antialias camera view up fov zoom color category range log-scale floor-axis floor-place ";
     char word[32];
     snprintf(word, sizeof word, " %.24s ", name);
-    return strstr(names, word) != NULL;
+    return strstr(names, word) != NULL || (!is_run && strstr(" camera-keys orbit ", word));
 }
 
 /* What the colours show, as the option color takes it. */
@@ -147,9 +147,10 @@ static void tell_color(const cgt_figure *figure, lines *l)
     static const char *const axes[] = {"x", "y", "z"};
     const figure_options *const o = &figure->options;
     const coloring *const c = &figure->coloring;
+    const int usual_axis = figure->survey.kind == CGT_TRAJECTORY_TRIANGLES ? 1 : 2;
     if (c->by == COLORING_VALUE || c->by == COLORING_CATEGORY)
         add(l, "%s", o->formula);
-    else if (c->by == COLORING_HEIGHT && o->has_up) /* a camera excludes up, which says what height is */
+    else if (c->by == COLORING_HEIGHT && c->axis != usual_axis) /* a camera excludes what says another one */
         add(l, "%s", axes[c->axis]);
     else if (c->by != COLORING_PLAIN)
         add(l, "%s", names[c->by]);
@@ -174,12 +175,12 @@ static int begins(const char *wanted, const char *name, lines *l)
     return 1;
 }
 
-size_t cgt_figure_get_chosen(const cgt_figure *figure, const char *name, char *text, size_t size)
+static size_t tell_chosen(const cgt_figure *figure, const char *name, int is_run, char *text, size_t size)
 {
     static const char *const axes[] = {"x", "y", "z", "-x", "-y", "-z"};
     const figure_options *const o = &figure->options;
     char camera[FIGURE_CAMERA_SIZE];
-    cgt_camera perspective = figure->camera;
+    cgt_camera perspective = is_run ? figure->path.start : figure->camera;
     lines l = {text, size, 0};
     if (size)
         *text = '\0';
@@ -187,12 +188,12 @@ size_t cgt_figure_get_chosen(const cgt_figure *figure, const char *name, char *t
         return 0;
     for (size_t i = 0; i < figure->given.count && !name; i++) {
         const figure_setting *const s = &figure->given.list[i];
-        if (!is_replaced(s->name))
+        if (!is_replaced(s->name, is_run))
             add(&l, s->value ? "%s = %s\n" : "%s\n", s->name, s->value);
     }
     perspective.projection = CGT_PROJECTION_PERSPECTIVE;
     cgt_figure_name_camera(figure, &perspective, camera);
-    if (begins(name, "camera", &l))
+    if (!(is_run && o->keys.count) && begins(name, "camera", &l))
         add(&l, "%s", camera);
     if (begins(name, "size", &l))
         add(&l, "%" PRIu32 "x%" PRIu32 "\n", o->width, o->height);
@@ -207,6 +208,8 @@ size_t cgt_figure_get_chosen(const cgt_figure *figure, const char *name, char *t
         tell_numbers(range, 2, &l);
         add(&l, "\n");
     }
+    if (figure->coloring.logarithmic && !name)
+        add(&l, "log-scale\n");
     if (o->floor.is_set && begins(name, "floor-axis", &l))
         add(&l, "%s\n", axes[o->floor.axis - 1]);
     if (o->floor.is_set && begins(name, "floor-place", &l)) {
@@ -214,4 +217,14 @@ size_t cgt_figure_get_chosen(const cgt_figure *figure, const char *name, char *t
         add(&l, "\n");
     }
     return l.length;
+}
+
+size_t cgt_figure_get_chosen(const cgt_figure *figure, const char *name, char *text, size_t size)
+{
+    return tell_chosen(figure, name, 0, text, size);
+}
+
+size_t cgt_figure_tell_run(const cgt_figure *figure, char *text, size_t size)
+{
+    return tell_chosen(figure, NULL, 1, text, size);
 }

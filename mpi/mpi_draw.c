@@ -202,7 +202,7 @@ cgt_result cgt_mpi_draw(cgt_mpi *m, const cgt_picture_options *options, const cg
                         const cgt_image *image)
 {
     mpi_drawing d = {.memory = NULL};
-    return m ? draw_and_free(m, options, camera, image, false, &d) : CGT_ERROR_INVALID_ARGUMENT;
+    return m && !m->failed ? draw_and_free(m, options, camera, image, false, &d) : CGT_ERROR_INVALID_ARGUMENT;
 }
 
 cgt_result cgt_mpi_draw_rows(cgt_mpi *m, const cgt_picture_options *options, const cgt_camera *camera,

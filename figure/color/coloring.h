@@ -40,7 +40,7 @@ typedef struct coloring {
     coloring_by by;                     /* not AUTO */
     int axis;                           /* of HEIGHT: 0, 1 or 2; cgt_coloring_init sets 2 */
     double min, max;                    /* values that get the map's first and last colour */
-    int logarithmic;                    /* of VALUE and SPEED: 1: equal steps of colour are equal ratios; min > 0 */
+    int logarithmic;                    /* of values: 1: equal steps of colour are equal ratios; min > 0 */
     const expression *formula;          /* of VALUE and CATEGORY; bound to the frame by the caller */
     categories *categories;             /* of CATEGORY; the caller's */
     float palette[COLORING_ENTRIES][3]; /* linear */
@@ -85,7 +85,8 @@ int cgt_coloring_has_jumps(const survey *s);
 /* What the colours of a surveyed run show. */
 coloring_by cgt_coloring_choose(const survey *s);
 
-/* The values at the ends of the map; they stay as they are where the survey knows of none. axis: that points up. */
+/* The values at the ends of the map; they stay as they are where the survey knows of none. axis: that points up.
+ * logarithmic: above 0, where that can be. */
 void cgt_coloring_choose_range(const survey *s, coloring_by by, int axis, int logarithmic, const double origin[3],
                                double *min, double *max);
 

@@ -30,10 +30,12 @@ void cgt_coloring_choose_range(const survey *s, coloring_by by, int axis, int lo
 {
     const float fastest = cgt_survey_speed_quantile(s, 0.99);
     if (by == COLORING_SPEED) {
-        *min = 0.0;
+        const double still = s->speeds ? (double)s->speed_bins[0] / (double)s->speeds : 0.0;
+        const double slow = (double)cgt_survey_speed_quantile(s, still + 0.01 * (1.0 - still));
         *max = (double)(fastest > 0.0f ? fastest : cgt_survey_speed_quantile(s, 1.0));
+        *min = logarithmic ? fmin(slow, *max) : 0.0;
     } else if (by == COLORING_ID && s->id_min <= s->id_max) {
-        *min = (double)s->id_min;
+        *min = logarithmic && s->id_min == 0 && s->id_max > 0 ? 1.0 : (double)s->id_min;
         *max = (double)s->id_max;
     } else if (by == COLORING_VALUE && s->values) {
         cgt_survey_value_range(s, logarithmic, min, max);

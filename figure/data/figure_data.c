@@ -152,7 +152,9 @@ static int take_column(const data_reader *r, const cgt_figure_column *c)
     const uint32_t count = r->from->points.count;
     if (!c->name || !*c->name)
         return refuse(r, "a column has no name");
-    const int is_whole = strcmp(c->name, "id") == 0 || strcmp(c->name, "type") == 0 || strcmp(c->name, "element") == 0;
+    const int is_whole =
+        f->kind == CGT_TRAJECTORY_SPHERES && /* of triangles there would be one each, and not one a vertex */
+        (strcmp(c->name, "id") == 0 || strcmp(c->name, "type") == 0 || strcmp(c->name, "element") == 0);
     if (check(r, c->name, &c->values, count, 1))
         return -1;
     if (strcmp(c->name, "velocity") == 0)

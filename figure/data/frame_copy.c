@@ -8,12 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Copies count elements of `floats` floats each; the array is not NULL even where there are none. */
-static int copy_floats(void **array, size_t *capacity, const float *from, size_t count, size_t floats)
+/* Copies count elements of so many floats or indices each; the array is not NULL even where there are none. */
+static int copy_array(void **array, size_t *capacity, const void *from, size_t count, size_t numbers)
 {
-    if (count > SIZE_MAX / (floats * sizeof(float)))
+    if (count > SIZE_MAX / (numbers * sizeof(float)))
         return -1;
-    const size_t bytes = count * floats * sizeof(float), wanted = bytes ? bytes : 1;
+    const size_t bytes = count * numbers * sizeof(float), wanted = bytes ? bytes : 1;
     if (wanted > *capacity) {
         free(*array); /* what it held is of another frame */
         *array = malloc(wanted);
@@ -29,16 +29,19 @@ static int copy_floats(void **array, size_t *capacity, const float *from, size_t
 void cgt_frame_copy_refer(frame_copy *copy, const cgt_trajectory_frame *frame)
 {
     copy->frame = *frame;
-    copy->frame.id = copy->frame.type = NULL;
+    copy->frame.id = copy->frame.type = copy->frame.bond = NULL;
     copy->frame.velocity = NULL;
+    copy->frame.element = NULL;
+    copy->frame.column = NULL;
+    copy->frame.bonds = copy->frame.columns = 0;
 }
 
 int cgt_frame_copy_set(frame_copy *copy, const cgt_trajectory_frame *frame)
 {
     const int triangles = frame->kind == CGT_TRAJECTORY_TRIANGLES;
     cgt_frame_copy_refer(copy, frame);
-    if (copy_floats(&copy->places, &copy->place_bytes, triangles ? frame->position : frame->xyzr, frame->count,
-                    triangles ? 3 : 4))
+    if (copy_array(&copy->places, &copy->place_bytes, triangles ? frame->position : frame->xyzr, frame->count,
+                   triangles ? 3 : 4))
         return -1;
     if (triangles)
         copy->frame.position = copy->places;
@@ -46,9 +49,20 @@ int cgt_frame_copy_set(frame_copy *copy, const cgt_trajectory_frame *frame)
         copy->frame.xyzr = copy->places;
     if (!frame->vertex_normal)
         return 0;
-    if (copy_floats(&copy->normals, &copy->normal_bytes, frame->vertex_normal, frame->count, 3))
+    if (copy_array(&copy->normals, &copy->normal_bytes, frame->vertex_normal, frame->count, 3))
         return -1;
     copy->frame.vertex_normal = copy->normals;
+    return 0;
+}
+
+int cgt_frame_copy_index(frame_copy *copy)
+{
+    cgt_trajectory_frame *const f = &copy->frame;
+    if (f->kind != CGT_TRAJECTORY_TRIANGLES)
+        return 0;
+    if (copy_array(&copy->corners, &copy->corner_bytes, f->index, f->triangles, 3))
+        return -1;
+    f->index = copy->corners;
     return 0;
 }
 
@@ -56,6 +70,7 @@ void cgt_frame_copy_free(frame_copy *copy)
 {
     free(copy->places);
     free(copy->normals);
+    free(copy->corners);
     memset(copy, 0, sizeof *copy);
 }
 

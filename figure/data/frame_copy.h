@@ -13,7 +13,8 @@ typedef struct frame_copy {
     cgt_trajectory_frame frame; /* its arrays are those below; NULL where they were not copied */
     void *places;               /* xyzr or position */
     void *normals;              /* vertex_normal */
-    size_t place_bytes, normal_bytes;
+    void *corners;              /* index, where cgt_frame_copy_index was called */
+    size_t place_bytes, normal_bytes, corner_bytes;
 } frame_copy;
 
 /* Copies what drawing takes: spheres, or vertices and their normals. Other arrays of the copy are NULL, but for the
@@ -21,7 +22,10 @@ typedef struct frame_copy {
  * again; a copy begins as all zero. Returns 0, or -1 where there is no memory. */
 int cgt_frame_copy_set(frame_copy *copy, const cgt_trajectory_frame *frame);
 
-/* The same, but places and normals are the frame's own, which must stay as they are. */
+/* Copies these indices, too, so that the copy outlives the trajectory. Returns as above. */
+int cgt_frame_copy_index(frame_copy *copy);
+
+/* As cgt_frame_copy_set, but places and normals are the frame's own, which must stay as they are. */
 void cgt_frame_copy_refer(frame_copy *copy, const cgt_trajectory_frame *frame);
 
 void cgt_frame_copy_free(frame_copy *copy);

@@ -146,11 +146,17 @@ int cgt_figure_options_finish(figure_options *o, char *error, size_t size)
     o->floor.is_set |= o->floor.axis || o->floor.has_height || o->floor.has_place;
     if (o->floor.is_set && o->picture.shadows < 0)
         o->picture.shadows = 1; /* in all styles: what casts none seems to float */
+    if (o->bounce.is_set && (o->picture.outline > 0.0f || o->picture.cue > 0.0f || o->picture.head > 0.0f))
+        return cgt_refuse(error, size, "--bounces goes without --outline, --depth-cue and --head");
     take_style(&o->picture);
     if (o->logarithmic && (o->is_symmetric || (o->has_range && !(o->range_min > 0.0))))
         return cgt_refuse(error, size, "--log-scale: the range must be above 0");
-    if (o->keys.count && o->orbit != 0.0f)
-        return cgt_refuse(error, size, "--camera-keys and --orbit exclude each other");
+    if (o->keys.count && (o->has_camera || o->orbit != 0.0f))
+        return cgt_refuse(error, size, "--camera-keys and --%s exclude each other", o->has_camera ? "camera" : "orbit");
+    if (o->keys.count) {
+        o->has_camera = 1;
+        o->camera = o->keys.key[0];
+    }
     if (!o->samples)
         o->samples = may_have(o, 2) ? 2 : 1;
     if (!may_have(o, o->samples))

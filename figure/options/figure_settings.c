@@ -100,6 +100,8 @@ static int put(figure_settings *s, const char *name, const char *value, size_t l
         free(copy);
         return fail_memory(error, size);
     }
+    if (copy)
+        cgt_join_lines(copy);
     if (!row->repeats)
         drop(s, row->name);
     s->list[s->count++] = (figure_setting){row->name, copy};

@@ -258,3 +258,10 @@ int cgt_find_word(const char *list, const char *word)
     }
     return -1;
 }
+
+void cgt_join_lines(char *text)
+{
+    for (; *text; text++)
+        if (*text == '\n' || *text == '\r')
+            *text = ' ';
+}

@@ -55,6 +55,9 @@ int cgt_read_camera(const char *text, cgt_camera *camera, char *error, size_t er
 int cgt_read_far_camera(const char *text, cgt_camera *camera, double eye[3], double target[3], char *error,
                         size_t error_size);
 
+/* Makes blanks of line feeds and carriage returns: settings are lines, which a value must not end. */
+void cgt_join_lines(char *text);
+
 /* The number of a word in a list with blanks or ", " between them; -1: it is not there. */
 int cgt_find_word(const char *list, const char *word);
 

@@ -45,11 +45,7 @@ int cgt_parse_keys(const char *text, void *to, char *error, size_t size)
 {
     figure_options *o = to;
     cgt_camera_keys_free(&o->keys);
-    if (cgt_camera_keys_read(&o->keys, text, error, size))
-        return -1;
-    o->has_camera = 1;
-    o->camera = o->keys.key[0];
-    return 0;
+    return cgt_camera_keys_read(&o->keys, text, error, size);
 }
 
 int cgt_parse_view(const char *text, void *to, char *error, size_t size)

@@ -27,8 +27,8 @@ struct figure_bounce {
     cgt_triangles floor;
     const uint16_t *triangle_entry;
     int per_vertex;
-    uint32_t *body;     /* of the triangles, where they are glass */
-    uint32_t bodies_of; /* triangles for which that was made */
+    uint32_t *body;     /* of the triangles, where they are glass; then their corners, for which that was found */
+    uint32_t bodies_of; /* so many triangles */
     uint32_t looks, geometries, id[FIGURE_LOOKS];
     cgt_look look[FIGURE_LOOKS];
     float floor_color[2 * FLOOR_CHEQUERS * FLOOR_CHEQUERS][3];
@@ -135,19 +135,22 @@ static cgt_result set_spheres(cgt_figure *figure)
     return result;
 }
 
-/* Bodies of a mesh of glass: found again where the number of its triangles changes. */
+/* Bodies of a mesh of glass: found again where its corners change, not where its vertices move. */
 static int find_bodies(cgt_figure *figure)
 {
     figure_bounce *b = figure->bounce;
     const cgt_trajectory_frame *f = figure->frame;
+    const size_t corners = 3 * (size_t)f->triangles;
     uint32_t bodies, wrong[3];
-    if (b->body && b->bodies_of == f->triangles)
+    if (!corners || (b->body && b->bodies_of == f->triangles &&
+                     memcmp(b->body + f->triangles, f->index, corners * sizeof *f->index) == 0))
         return 0;
     free(b->body);
-    b->body = malloc(((size_t)f->triangles + 1) * sizeof *b->body);
+    b->body = malloc((f->triangles + corners) * sizeof *b->body);
     b->bodies_of = f->triangles;
     if (!b->body)
         return cgt_figure_fail(figure, "out of memory for the bodies of %u triangles", f->triangles);
+    memcpy(b->body + f->triangles, f->index, corners * sizeof *f->index);
     const cgt_result result = cgt_find_bodies(f->index, f->triangles, f->position, f->count, b->body, &bodies, wrong);
     if (result == CGT_ERROR_INVALID_ARGUMENT) /* the reader has checked the indices */
         return cgt_figure_fail(

@@ -7,12 +7,6 @@
 
 uint32_t cgt_figure_layer_mask(const particle_options *o, uint32_t layer) { return o->layer_count ? 1u << layer : 0; }
 
-/* The bonds of a layer among the sticks. */
-static uint32_t bonds_end(const frame_parts *parts, uint32_t layer)
-{
-    return layer > 1 ? parts->bond_begin[layer - 1] : parts->bond_begin[0];
-}
-
 static cgt_result set_spheres(cgt_figure *figure, uint32_t layer)
 {
     figure_scene *const s = &figure->parts;
@@ -36,7 +30,7 @@ static cgt_result set_bonds(cgt_figure *figure, uint32_t layer)
 {
     figure_scene *const s = &figure->parts;
     const sticks *const t = &s->frame->sticks;
-    const uint32_t begin = s->frame->bond_begin[layer], count = bonds_end(s->frame, layer) - begin;
+    const uint32_t begin = s->frame->bond_begin[layer], count = s->frame->bond_begin[layer - 1] - begin;
     const cgt_capsules capsules = {.count = count,
                                    .vertex_count = 2 * count,
                                    .vertices = cgt_floats(count ? t->end + 6 * (size_t)begin : NULL, 0),

@@ -41,9 +41,9 @@ typedef struct cgt_figure cgt_figure;
 /* ---- Data --------------------------------------------------------------------------------------------------- */
 
 /* A column: what each particle or vertex has, floats, doubles or halves; id, type and element may be whole numbers.
- * Some names mean something: radius, id, type, element (atomic number), velocity (three numbers), normal (three; of
- * vertices), rgb (three, linear; of particles, where no option says what colours show). Others are for formulas and
- * colours. */
+ * Some names mean something: radius, id, type, element (atomic number; these four of particles), velocity (three
+ * numbers), normal (three; of vertices), rgb (three, linear; of particles, where no option says what colours show).
+ * Others are for formulas and colours. */
 typedef struct cgt_figure_column {
     const char *name;
     cgt_array values;
@@ -146,7 +146,7 @@ CGT_API bool cgt_figure_get_option(uint32_t index, cgt_figure_option *option);
 /* Sets an option. A value replaces the one before, or is added where the option repeats. After a frame was given, the
  * survey begins anew. But where frames are kept what was found stays, and the shown frame is made anew at once: colours
  * or a camera that the option changes are those of this frame, a camera of cgt_figure_set_camera ends with the second.
- *   value   NULL: without a value; copied
+ *   value   NULL: without a value; copied, with blanks in place of ends of lines
  * Errors: INVALID_ARGUMENT (there is no such option; the value; it does not go with another option; unwrap, whole and
  *         trails where frames are kept), OUT_OF_MEMORY; where frames are kept as cgt_figure_show, too */
 CGT_API cgt_result cgt_figure_set(cgt_figure *figure, const char *name, const char *value);
@@ -163,7 +163,8 @@ CGT_API cgt_result cgt_figure_unset(cgt_figure *figure, const char *name);
 CGT_API size_t cgt_figure_get(const cgt_figure *figure, const char *name, char *text, size_t size);
 
 /* Copies settings by which another figure makes the same picture of the shown frame: what was set, and in the place of
- * automatic ones camera, size, antialias, color, range, floor-axis and floor-place as they were chosen.
+ * automatic ones camera, size, antialias, color, range, floor-axis and floor-place as they were chosen; log-scale only
+ * where the colours have it.
  *   name   the value of one of these seven; NULL: all settings
  * Returns as cgt_figure_get; 0: nothing was chosen yet. */
 CGT_API size_t cgt_figure_get_chosen(const cgt_figure *figure, const char *name, char *text, size_t size);
@@ -251,7 +252,8 @@ CGT_API void cgt_figure_set_stop(cgt_figure *figure, bool (*stop)(const void *us
 CGT_API cgt_result cgt_figure_draw(cgt_figure *figure, const cgt_image *image, const cgt_trace_options *options);
 
 /* The same in steps, as cgt_picture_begin, _step and _read; the background is never transparent. After the last step
- * the picture is that of cgt_figure_draw. Errors: as cgt_figure_draw */
+ * the picture is that of cgt_figure_draw. Errors: as cgt_figure_draw; INVALID_ARGUMENT (no picture has begun since a
+ * frame was shown or released, or an option set) */
 CGT_API cgt_result cgt_figure_begin(cgt_figure *figure);
 CGT_API cgt_result cgt_figure_step(cgt_figure *figure, uint32_t samples, uint32_t *left);
 CGT_API cgt_result cgt_figure_read(cgt_figure *figure, const cgt_image *image);

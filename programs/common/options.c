@@ -68,8 +68,10 @@ static void note_setting(options_state *s, const char *name, const char *value)
     if (!text)
         return;
     s->given->settings = text;
-    snprintf(text + s->settings_size, more + 1, value ? "%s = %s\n" : "%s\n", name, value);
+    snprintf(text + s->settings_size, more, value ? "%s = %s" : "%s", name, value);
+    cgt_join_lines(text + s->settings_size);
     s->settings_size += more;
+    memcpy(text + s->settings_size - 1, "\n", 2);
 }
 
 /* Rows of the table, then those of every program, then __words. */

@@ -49,6 +49,11 @@ int out_path_parse(out_path *path, const char *pattern, char *error, size_t erro
         parsed.number_end = i + length;
         i += length - 1;
     }
+    for (size_t i = parsed.number_end; pattern[i]; i++)
+        if (system_is_separator(pattern[i])) {
+            snprintf(error, error_size, "\"%s\": the number is of the file, not of a folder", pattern);
+            return -1;
+        }
     if (!*pattern || pattern[strlen(pattern) - 1] == '/') {
         snprintf(error, error_size, "\"%s\" names no file", pattern);
         return -1;

@@ -101,8 +101,7 @@ static const option_table table = {
     .text =
         "Converts a trajectory of spheres, or a mesh and its animation, to .frames.\v"
         "Several INPUTs, one for each step, are one run, in the order of the numbers in their names; - is standard "
-        "input, and needs --format. INPUT is a trajectory (" TRAJECTORY_ENDINGS
-        "), or a mesh that assimp reads (.obj, .ply, "
+        "input. INPUT is a trajectory (" TRAJECTORY_ENDINGS "), or a mesh that assimp reads (.obj, .ply, "
         ".gltf, .dae, .x, .ifc and others) in a build that has it, and may be compressed by gzip, Zstandard, xz, bzip2 "
         "or LZ4 in a build with libarchive; OUTPUT ends in .frames, which keeps the triangles of a mesh, but no vertex "
         "normals. An existing OUTPUT is replaced when the new one is complete, or has the whole frames before an error "

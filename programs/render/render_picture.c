@@ -8,37 +8,50 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/settings_file.h"
+
 static void add_text(renderer *r, const char *key, const char *value)
 {
     if (value && *value)
         r->texts[r->text_count++] = (png_text){key, value};
 }
 
-/* The settings, then the camera and the range that were found, so that the picture can be made again. */
+/* Those of the settings that are not the figure's, which has its own. Returns the length. */
+static size_t copy_other_lines(const char *settings, char *to)
+{
+    size_t used = 0;
+    char name[64];
+    for (const char *line = settings, *next; *line; line = next) {
+        next = settings_next_line(line);
+        snprintf(name, sizeof name, "%.*s", (int)settings_name_length(line), line);
+        if (cgt_figure_find_row(name))
+            continue;
+        memcpy(to + used, line, (size_t)(next - line));
+        used += (size_t)(next - line);
+    }
+    return used;
+}
+
+/* The settings, with what was chosen, so that the picture can be made again. */
 static int describe(renderer *r)
 {
+    enum { ORIGIN_SIZE = 100 };
     const render_options *o = &r->options;
     const char *const settings = o->settings ? o->settings : "";
-    const int digits = figure_is_moved(r->figure) ? 15 : 9;
-    char camera[FIGURE_CAMERA_SIZE], origin[100] = "", range[100] = "";
+    const double *const origin = r->figure->origin;
     if (o->no_metadata)
         return 0;
-    cgt_figure_name_camera(r->figure, &r->figure->path.start, camera);
-    if (!o->reading.has_origin && figure_is_moved(r->figure))
-        snprintf(origin, sizeof origin, "origin = %.15g,%.15g,%.15g\n", r->figure->origin[0], r->figure->origin[1],
-                 r->figure->origin[2]);
-    if (!r->figure->options.has_range && r->figure->coloring.max > r->figure->coloring.min)
-        snprintf(range, sizeof range, "range = %.*g,%.*g\n", digits, r->figure->coloring.min, digits,
-                 r->figure->coloring.max);
-    const size_t size = strlen(settings) + sizeof camera + sizeof origin + sizeof range;
-    char *const text = malloc(size);
+    const size_t chosen = cgt_figure_tell_run(r->figure, NULL, 0);
+    char *const text = malloc(strlen(settings) + ORIGIN_SIZE + chosen + 1);
     if (!text) {
         program_error("out of memory");
         return -1;
     }
-    snprintf(text, size, "%s%s%s%s%s", settings,
-             r->figure->options.has_camera ? "" : "camera = ", r->figure->options.has_camera ? "" : camera, origin,
-             range);
+    size_t used = copy_other_lines(settings, text);
+    if (!o->reading.has_origin && figure_is_moved(r->figure))
+        used +=
+            (size_t)snprintf(text + used, ORIGIN_SIZE, "origin = %.15g,%.15g,%.15g\n", origin[0], origin[1], origin[2]);
+    cgt_figure_tell_run(r->figure, text + used, chosen + 1);
     r->settings = text;
     add_text(r, "Software", "cgt-render (libcgt " CGT_VERSION_STRING ")");
     add_text(r, "Source", o->input);

@@ -114,7 +114,8 @@ static int open_source(renderer *r)
     if (frame_source_open(&r->source, &r->figure->sequence, o->inputs, o->input_count, &o->reading, r->error,
                           sizeof r->error))
         return render_fail(r);
-    r->source.keep.most = (size_t)o->memory_mib * (1024 * 1024);
+    const uint64_t most = (uint64_t)o->memory_mib << 20;
+    r->source.keep.most = most < SIZE_MAX ? (size_t)most : SIZE_MAX;
     return frame_source_want_columns(&r->source, r->error, sizeof r->error) ? render_fail(r) : 0;
 }
 

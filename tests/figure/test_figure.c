@@ -111,6 +111,23 @@ TEST(values_count_in_the_order_in_which_they_were_set)
     cgt_figure_release(figure);
 }
 
+/* Settings are lines, which no value ends. */
+TEST(a_value_is_one_line)
+{
+    static const char lines[] = "size = 48x32\ntitle = a b  c\nshow = heat > 1   && heat < 5\n";
+    cgt_figure *const figure = make_figure(), *const other = make_figure();
+    char text[200];
+    assert_int_equal(cgt_figure_set(figure, "title", "a\nb\r\nc"), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "show", "heat > 1\n  && heat < 5"), CGT_OK);
+    cgt_figure_get(figure, NULL, text, sizeof text);
+    assert_string_equal(text, lines);
+    assert_int_equal(cgt_figure_set_lines(other, text), CGT_OK);
+    cgt_figure_get(other, NULL, text, sizeof text);
+    assert_string_equal(text, lines);
+    cgt_figure_release(figure);
+    cgt_figure_release(other);
+}
+
 /* Lines are checked together, and set together or not at all. */
 TEST(lines_are_set_at_once)
 {
@@ -441,6 +458,103 @@ TEST(kinds_do_not_change_in_a_run)
     cgt_figure_release(figure);
 }
 
+static float corner[4][3] = {{0.0f, 0.0f, 0.0f}, {4.0f, 0.0f, 0.0f}, {0.0f, 4.0f, 0.0f}, {0.0f, 0.0f, 4.0f}};
+static const uint32_t closed_mesh[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+
+static cgt_figure_data tetrahedron(const uint32_t *corners)
+{
+    return (cgt_figure_data){.points = {4, cgt_floats(corner[0], 0), NULL, 0, 0.0f},
+                             .triangles = {4, cgt_uint32s(corners, 0)}};
+}
+
+/* They are numbers of vertices, of which there may be fewer than triangles: for formulas alone. */
+TEST(columns_of_meshes_are_of_vertices)
+{
+    static const uint32_t number[] = {0, 0, 0, 8};
+    cgt_figure *const figure = make_figure();
+    cgt_figure_data data = tetrahedron(closed_mesh);
+    uint8_t plain[BYTES], then[BYTES];
+    uint32_t twice[24];
+    for (int i = 0; i < 24; i++)
+        twice[i] = closed_mesh[i % 12];
+    data.triangles = (cgt_figure_triangles){8, cgt_uint32s(twice, 0)};
+    const cgt_figure_column whole[] = {{.name = "id", .values = cgt_uint32s(number, 0)},
+                                       {.name = "type", .values = cgt_uint32s(number, 0)},
+                                       {.name = "element", .values = cgt_uint32s(number, 0)}};
+    assert_int_equal(cgt_figure_set(figure, "color", "id"), CGT_OK);
+    draw(figure, &data, plain);
+    data.points.columns = whole;
+    data.points.column_count = 3;
+    assert_int_equal(cgt_figure_set(figure, "color", "id"), CGT_OK);
+    draw(figure, &data, then);
+    assert_memory_equal(then, plain, sizeof then);
+    assert_int_equal(cgt_figure_set(figure, "color", "element + type"), CGT_OK);
+    draw(figure, &data, then);
+    assert_memory_not_equal(then, plain, sizeof then);
+    assert_int_equal(cgt_figure_set(figure, "color", "type"), CGT_OK);
+    assert_int_equal(cgt_figure_show(figure, &data), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "the triangles have no types");
+    cgt_figure_release(figure);
+}
+
+/* A shown frame is the figure's own, whatever becomes of the reader's. */
+TEST(frames_are_copied)
+{
+    uint32_t index[12], ids[4] = {1, 2, 3, 4};
+    float values[4] = {1.0f, 2.0f, 3.0f, 4.0f}, spheres[16] = {0.0f};
+    uint8_t element[4] = {6, 6, 6, 6}, before[BYTES], after[BYTES];
+    char told[200];
+    cgt_trajectory_column column = {.name = "heat", .value = values};
+    cgt_trajectory_frame frame = {.kind = CGT_TRAJECTORY_TRIANGLES,
+                                  .count = 4,
+                                  .triangles = 4,
+                                  .index = index,
+                                  .position = corner[0],
+                                  .angstrom = 1.0f,
+                                  .box_min = {1.0f}};
+    const cgt_figure_data data = {.frame = &frame};
+    const cgt_image image = {.bytes = after};
+    cgt_figure *const figure = make_figure();
+    memcpy(index, closed_mesh, sizeof index);
+    draw(figure, &data, before);
+    memset(index, 0, sizeof index);
+    assert_int_equal(cgt_figure_draw(figure, &image, NULL), CGT_OK);
+    assert_memory_equal(after, before, sizeof after);
+    assert_int_equal(cgt_figure_describe(figure, 3, told, sizeof told), strlen("triangle 3, vertices 1, 2, 3\n"));
+    assert_string_equal(told, "triangle 3, vertices 1, 2, 3\n");
+    frame = (cgt_trajectory_frame){.kind = CGT_TRAJECTORY_SPHERES,
+                                   .count = 4,
+                                   .xyzr = spheres,
+                                   .id = ids,
+                                   .element = element,
+                                   .angstrom = 1.0f,
+                                   .columns = 1,
+                                   .column = &column,
+                                   .box_min = {1.0f}};
+    spheres[7] = 0.5f;
+    assert_int_equal(cgt_figure_unset(figure, NULL), CGT_OK); /* a run of its own */
+    assert_int_equal(cgt_figure_show(figure, &data), CGT_OK);
+    cgt_figure_describe(figure, 1, told, sizeof told);
+    assert_string_equal(told, "sphere 1\nat  0, 0, 0\nradius  0.5\n");
+    cgt_figure_release(figure);
+}
+
+/* Glass has the bodies of its own triangles. */
+TEST(bodies_are_those_of_the_mesh)
+{
+    static const uint32_t open_mesh[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 3, 2};
+    cgt_figure *const figure = make_figure();
+    cgt_figure_data data = tetrahedron(closed_mesh);
+    uint8_t rgb[BYTES];
+    assert_int_equal(cgt_figure_set_lines(figure, "bounces = 2\nmaterial = all=glass\n"), CGT_OK);
+    draw(figure, &data, rgb);
+    data = tetrahedron(open_mesh);
+    data.number = 1;
+    assert_int_equal(cgt_figure_show(figure, &data), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "glass must be closed");
+    cgt_figure_release(figure);
+}
+
 /* Walls are copied, and taken away again. */
 TEST(meshes_stand_among_particles)
 {
@@ -648,6 +762,32 @@ TEST(options_change_what_is_shown)
     const cgt_image image = {.bytes = then};
     assert_int_equal(cgt_figure_draw(figure, &image, NULL), CGT_ERROR_INVALID_ARGUMENT);
     cgt_figure_release(figure);
+}
+
+/* Bonds of a kept frame are guessed where options ask for them, as if they had been asked for from the start. */
+TEST(kept_frames_have_bonds)
+{
+    static float chain[3][3] = {{0.0f, 0.0f, 0.0f}, {1.5f, 0.0f, 0.0f}, {3.0f, 0.0f, 0.0f}};
+    static const uint8_t carbon[] = {6, 6, 6};
+    const cgt_figure_column column = {.name = "element", .values = cgt_uint8s(carbon, 0)};
+    const cgt_figure_data data = {.points = {3, cgt_floats(chain[0], 0), &column, 1, 0.0f}};
+    cgt_figure *const figure = make_figure(), *const fresh = make_figure();
+    uint8_t then[BYTES], expected[BYTES];
+    assert_int_equal(cgt_figure_set(figure, "radius-scale", "0.2"), CGT_OK);
+    cgt_figure_frame *const frame = keep(figure, &data);
+    assert_int_equal(cgt_figure_show_frame(figure, frame), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "bonds", NULL), CGT_OK);
+    assert_non_null(strstr(cgt_figure_take_notice(figure), "guessed by the covalent radii"));
+    draw_shown(figure, then);
+    assert_int_equal(cgt_figure_set_lines(fresh, "radius-scale = 0.2\nbonds\n"), CGT_OK);
+    draw(fresh, &data, expected);
+    assert_memory_equal(then, expected, sizeof then);
+    assert_int_equal(cgt_figure_show_frame(figure, frame), CGT_OK);
+    draw_shown(figure, then);
+    assert_memory_equal(then, expected, sizeof then);
+    cgt_figure_release(figure);
+    cgt_figure_release(fresh);
+    cgt_figure_frame_release(frame);
 }
 
 /* Materials that no option has any more, while light still bounces, in a frame of more spheres than had one: that such
@@ -860,6 +1000,32 @@ TEST(what_was_chosen_makes_the_picture)
     cgt_figure_release(other);
 }
 
+/* So it does where the view says which axis is height, and where the scale is logarithmic, or could not be. */
+TEST(what_was_chosen_is_accepted)
+{
+    static const char *const settings[] = {"view = top\ncolor = height\n", "color = id\nlog-scale\n",
+                                           "color = height\nlog-scale\n", "color = red\nlog-scale\n"};
+    static const char *const chosen[] = {"\ncolor = y\n", "\ncolor = id\nrange = 1,49\nlog-scale\n",
+                                         "\ncolor = height\nrange = ", "\ncolor = ff0000\n"};
+    const cgt_figure_data data = grains();
+    uint8_t first[BYTES], again[BYTES];
+    char text[1000];
+    for (size_t i = 0; i < TEST_COUNT(settings); i++) {
+        cgt_figure *const figure = make_figure(), *const other = make_figure();
+        assert_int_equal(cgt_figure_set_lines(figure, settings[i]), CGT_OK);
+        draw(figure, &data, first);
+        cgt_figure_get_chosen(figure, NULL, text, sizeof text);
+        if (!strstr(text, chosen[i]))
+            fail_msg("no \"%s\" in \"%s\"", chosen[i], text);
+        assert_int_equal(strstr(text, "log-scale") != NULL, i == 1);
+        assert_int_equal(cgt_figure_set_lines(other, text), CGT_OK);
+        draw(other, &data, again);
+        assert_memory_equal(again, first, sizeof first);
+        cgt_figure_release(figure);
+        cgt_figure_release(other);
+    }
+}
+
 /* Speeds are those of frames that follow each other; the first one's are those towards the second. */
 TEST(kept_frames_have_speeds)
 {
@@ -933,6 +1099,32 @@ TEST(steps_make_the_whole_picture)
     cgt_figure_release(figure);
 }
 
+/* A picture ends with the scene that it is of. */
+TEST(steps_end_with_the_frame)
+{
+    cgt_figure *const figure = make_figure();
+    const cgt_figure_data data = grains();
+    uint8_t rgb[BYTES];
+    const cgt_image image = {.bytes = rgb};
+    uint32_t left;
+    cgt_figure_frame *const one = keep(figure, &data), *const other = keep(figure, &data);
+    assert_int_equal(cgt_figure_show_frame(figure, one), CGT_OK);
+    assert_int_equal(cgt_figure_begin(figure), CGT_OK);
+    assert_int_equal(cgt_figure_draw_quick(figure, CGT_FIGURE_SHADOWS, 2, &image), CGT_OK);
+    assert_int_equal(cgt_figure_step(figure, 1, &left), CGT_OK);
+    assert_int_equal(cgt_figure_show_frame(figure, other), CGT_OK);
+    assert_int_equal(cgt_figure_step(figure, 1, &left), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "no picture has begun");
+    assert_int_equal(cgt_figure_begin(figure), CGT_OK);
+    assert_int_equal(cgt_figure_draw(figure, &image, NULL), CGT_OK);
+    assert_int_equal(cgt_figure_step(figure, 1, &left), CGT_OK);
+    cgt_figure_frame_release(other);
+    assert_int_equal(cgt_figure_read(figure, &image), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "no picture has begun");
+    cgt_figure_frame_release(one);
+    cgt_figure_release(figure);
+}
+
 static bool always(const void *user)
 {
     (void)user;
@@ -945,7 +1137,8 @@ TEST(quick_pictures_are_plain)
     cgt_figure *const figure = make_figure();
     const cgt_figure_data data = grains();
     static uint8_t whole[BYTES], quick[BYTES], four[4 * WIDTH * HEIGHT];
-    const cgt_image image = {.bytes = quick}, wide = {.bytes = four, .channels = 4}, none = {.channels = 3};
+    const cgt_image image = {.bytes = quick}, wide = {.bytes = four, .channels = 4, .row_stride = 4 * WIDTH},
+                    none = {.channels = 3}, gaps = {.bytes = four, .row_stride = 4 * WIDTH};
     assert_int_equal(cgt_figure_set(figure, "antialias", "1"), CGT_OK);
     assert_int_equal(cgt_figure_set(figure, "style", "plain"), CGT_OK);
     draw(figure, &data, whole);
@@ -962,6 +1155,7 @@ TEST(quick_pictures_are_plain)
                                 quick + 3 * ((ptrdiff_t)(y / 3 * 3) * WIDTH + x / 3 * 3), 3);
     assert_int_equal(cgt_figure_draw_quick(figure, CGT_FIGURE_PLAIN, 0, &image), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(cgt_figure_draw_quick(figure, CGT_FIGURE_PLAIN, 1, &none), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_draw_quick(figure, CGT_FIGURE_PLAIN, 1, &gaps), CGT_ERROR_INVALID_ARGUMENT);
     expect_message(figure, "a quick picture is one of bytes");
     assert_int_equal(cgt_figure_set(figure, "style", "soft"), CGT_OK);
     assert_int_equal(cgt_figure_show(figure, &data), CGT_OK);

@@ -155,7 +155,8 @@ static int is_refused(MPI_Comm joined, const cgt_mpi_options *options, const cha
     const cgt_result result = cgt_mpi_create(joined, options, &mpi);
     cgt_mpi_get_error_message(mpi, text, sizeof text);
     const int refused = result == CGT_ERROR_INVALID_ARGUMENT && strstr(text, word) && !cgt_mpi_get_scene(mpi) &&
-                        cgt_mpi_gather(mpi, NULL, 0) == CGT_ERROR_INVALID_ARGUMENT;
+                        cgt_mpi_gather(mpi, NULL, 0) == CGT_ERROR_INVALID_ARGUMENT &&
+                        cgt_mpi_draw(mpi, NULL, NULL, NULL) == CGT_ERROR_INVALID_ARGUMENT;
     cgt_mpi_release(mpi);
     return refused;
 }

@@ -88,17 +88,25 @@ static uint32_t cell_of_frame(const contact_sheet *sheet, uint64_t k)
 
 int contact_sheet_wants(const contact_sheet *sheet, uint64_t k) { return cell_of_frame(sheet, k) < sheet->cells; }
 
+/* A frame that is put on the sheet. */
+typedef struct sheet_frame {
+    const uint8_t *rgb, *alpha; /* alpha NULL: opaque */
+    double background[3];       /* linear */
+} sheet_frame;
+
 /* Averages the source pixels [x0, x1) x [y0, y1) in linear light. */
-static void average(const contact_sheet *sheet, const uint8_t *rgb, uint32_t x0, uint32_t x1, uint32_t y0, uint32_t y1,
-                    uint8_t out[3])
+static void average(const contact_sheet *sheet, const sheet_frame *frame, uint32_t x0, uint32_t x1, uint32_t y0,
+                    uint32_t y1, uint8_t out[3])
 {
     double sum[3] = {0.0, 0.0, 0.0};
-    for (uint32_t y = y0; y < y1; y++) {
-        const uint8_t *row = rgb + ((size_t)y * sheet->frame_width + x0) * 3;
-        for (uint32_t x = x0; x < x1; x++, row += 3)
+    for (uint32_t y = y0; y < y1; y++)
+        for (uint32_t x = x0; x < x1; x++) {
+            const size_t pixel = (size_t)y * sheet->frame_width + x;
+            const double cover = frame->alpha ? frame->alpha[pixel] / 255.0 : 1.0;
             for (int c = 0; c < 3; c++)
-                sum[c] += (double)cgt_srgb_decode(row[c]);
-    }
+                sum[c] +=
+                    cover * (double)cgt_srgb_decode(frame->rgb[3 * pixel + c]) + (1.0 - cover) * frame->background[c];
+        }
     const double share = 1.0 / ((double)(x1 - x0) * (double)(y1 - y0));
     for (int c = 0; c < 3; c++)
         out[c] = cgt_srgb_encode((float)(sum[c] * share));
@@ -135,11 +143,15 @@ static void write_number(contact_sheet *sheet, uint32_t left, uint32_t top, uint
             }
 }
 
-void contact_sheet_add(contact_sheet *sheet, uint64_t k, uint64_t number, const uint8_t *rgb)
+void contact_sheet_add(contact_sheet *sheet, uint64_t k, uint64_t number, const uint8_t *rgb, const uint8_t *alpha,
+                       const uint8_t background[3])
 {
     const uint32_t cell = cell_of_frame(sheet, k);
+    sheet_frame frame = {.rgb = rgb, .alpha = alpha};
     if (cell == sheet->cells)
         return;
+    for (int c = 0; c < 3; c++)
+        frame.background[c] = (double)cgt_srgb_decode(background[c]);
     const uint32_t left = CONTACT_SHEET_GAP + cell % sheet->columns * (sheet->thumb_width + CONTACT_SHEET_GAP);
     const uint32_t top = CONTACT_SHEET_GAP + cell / sheet->columns * (sheet->thumb_height + CONTACT_SHEET_GAP);
     for (uint32_t y = 0; y < sheet->thumb_height; y++) {
@@ -148,7 +160,7 @@ void contact_sheet_add(contact_sheet *sheet, uint64_t k, uint64_t number, const 
         for (uint32_t x = 0; x < sheet->thumb_width; x++) {
             const uint32_t x0 = (uint32_t)((uint64_t)x * sheet->frame_width / sheet->thumb_width);
             const uint32_t x1 = (uint32_t)((uint64_t)(x + 1) * sheet->frame_width / sheet->thumb_width);
-            average(sheet, rgb, x0, x1, y0, y1, sheet->rgb + ((size_t)(top + y) * sheet->width + left + x) * 3);
+            average(sheet, &frame, x0, x1, y0, y1, sheet->rgb + ((size_t)(top + y) * sheet->width + left + x) * 3);
         }
     }
     write_number(sheet, left, top, number);

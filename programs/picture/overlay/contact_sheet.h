@@ -27,8 +27,11 @@ void contact_sheet_release(contact_sheet *sheet);
 /* Returns 1 where frame k, counted from 0, is on the sheet. */
 int contact_sheet_wants(const contact_sheet *sheet, uint64_t k);
 
-/* Puts frame k on the sheet, if it has a cell there, with number in its corner. rgb: 3 * width * height bytes, sRGB. */
-void contact_sheet_add(contact_sheet *sheet, uint64_t k, uint64_t number, const uint8_t *rgb);
+/* Puts frame k on the sheet, if it has a cell there, with number in its corner.
+ *   rgb     3 * width * height bytes, sRGB
+ *   alpha   a byte a pixel, how much rgb covers of the background; NULL: all */
+void contact_sheet_add(contact_sheet *sheet, uint64_t k, uint64_t number, const uint8_t *rgb, const uint8_t *alpha,
+                       const uint8_t background[3]);
 
 /* Returns the sheet's pixels, 3 * *width * *height bytes, valid until its release. */
 const uint8_t *contact_sheet_pixels(const contact_sheet *sheet, uint32_t *width, uint32_t *height);

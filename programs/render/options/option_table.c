@@ -213,7 +213,7 @@ const option_table *render_option_table(void)
         .text = "Renders the moving spheres or triangles of a trajectory (" TRAJECTORY_ENDINGS "); or a "
                 "mesh with its animation: .obj, .ply, .gltf, .dae, .x, .ifc and others. Several files, one for each "
                 "step, are "
-                "one run, in the order of the numbers in their names; - is standard input, and needs --format.\v"
+                "one run, in the order of the numbers in their names; - is standard input.\v"
                 "The structure is built anew for every frame. Exit codes: 0 all frames were rendered, 1 something "
                 "failed, 2 "
                 "the command line is wrong.\n\n"

@@ -43,7 +43,7 @@ static const option_row *find_row(const char *name)
         if (row->name && strncmp(row->name, name, strlen(name)) == 0 && (!found || strcmp(row->name, name) == 0))
             found = row;
     }
-    return found && strcmp(name, "settings") != 0 ? found : NULL;
+    return found && strcmp(found->name, "settings") != 0 ? found : NULL;
 }
 
 /* A whole name's value is checked here, where the line is known. */
@@ -78,13 +78,28 @@ static int append_option(void *user, const char *name, const char *value, char *
     return failed ? -1 : 0;
 }
 
+/* Whether an option's name, which may be shortened as long as one alone begins so, is that of settings files. */
+static int names_settings(const char *name, size_t length)
+{
+    int matches = 0;
+    for (size_t i = 0; i < render_option_table()->count; i++) {
+        const char *const known = render_option_table()->rows[i].name;
+        matches += known && strncmp(known, name, length) == 0;
+    }
+    return matches == 1 && strncmp("settings", name, length) == 0;
+}
+
 /* The file that an argument names: in itself or as the next one, which *takes tells; NULL for other arguments. */
 static const char *settings_path(int argc, char **argv, int i, int *takes)
 {
+    const size_t length = strncmp(argv[i], "--", 2) == 0 ? strcspn(argv[i] + 2, "=") : 0;
+    const char *const end = argv[i] + 2 + length;
     *takes = 1;
-    if (strncmp(argv[i], "--settings=", 11) == 0)
-        return argv[i] + 11;
-    if (strcmp(argv[i], "--settings") != 0 || i + 1 >= argc)
+    if (!length || !names_settings(argv[i] + 2, length))
+        return NULL;
+    if (*end == '=')
+        return end + 1;
+    if (i + 1 >= argc)
         return NULL;
     *takes = 2;
     return argv[i + 1];

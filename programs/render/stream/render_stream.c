@@ -72,23 +72,24 @@ static uint64_t number_of(const render_writer *w, uint64_t chosen)
     return w->options->range.first + chosen * w->options->range.every;
 }
 
-static int take(render_writer *w, uint64_t chosen, const uint8_t *rgb)
+static int take(render_writer *w, const writer_picture *p)
 {
     const render_options *o = w->options;
     char error[PROGRAM_ERROR_SIZE];
     for (uint32_t i = 0; i < o->output_count; i++) {
-        if (w->movies[i] && movie_add(w->movies[i], rgb, error, sizeof error)) {
+        if (w->movies[i] && movie_add(w->movies[i], p->rgb, error, sizeof error)) {
             if (*w->stop)
                 return 0;
             program_error("%s", error);
             return -1;
         }
         if (render_output_kind(o->outputs[i].pattern) == OUTPUT_RAW &&
-            write_raw(rgb, (size_t)o->figure.width * o->figure.height * 3, w->stop))
+            write_raw(p->rgb, (size_t)o->figure.width * o->figure.height * 3, w->stop))
             return -1;
     }
     if (w->sheet)
-        contact_sheet_add(w->sheet, chosen - w->first_chosen, number_of(w, chosen), rgb);
+        contact_sheet_add(w->sheet, p->chosen - w->first_chosen, number_of(w, p->chosen), p->rgb, p->alpha,
+                          o->figure.picture.background);
     return 0;
 }
 
@@ -98,7 +99,7 @@ void render_stream_run(render_writer *w)
     for (writer_picture *p = NULL; !failed && (p = render_writer_next_in_order(w)) != NULL;) {
         const double begin = program_seconds();
         /* after a signal no movie is kept, but the files of this picture are */
-        failed = !*w->stop && take(w, p->chosen, p->rgb);
+        failed = !*w->stop && take(w, p);
         render_writer_streamed(w, p, failed, (program_seconds() - begin) * 1e3);
     }
 }

@@ -527,8 +527,21 @@ same given by_file "a settings file draws another picture than its command line"
 { printf '\357\273\277' && cat "$tmp/paper.txt"; } >"$tmp/marked.txt" # a byte-order mark, as editors write it
 draw by_marked --settings marked.txt row.xyz
 same given by_marked "a byte-order mark changes the settings"
+draw by_short --se paper.txt row.xyz
+same given by_short "--settings that is shortened"
+draw by_shorter --setting=paper.txt row.xyz
+same given by_shorter "--settings that is shortened, with its value"
 draw overridden --settings=paper.txt --style plain row.xyz
 differs given overridden "an option after --settings"
+# A value may have line feeds: they are blanks, and end no setting.
+draw in_lines -c $camera --show 'charge < 30
+    && x < 5' row.xyz
+draw in_line -c $camera --show 'charge < 30 && x < 5' row.xyz
+same in_lines in_line "a value over two lines"
+run 0 --print-settings --title 'over
+transparent' row.xyz
+says out '^title = over transparent$'
+says out '^# transparent$'
 printf 'style = paper\nno-such-option\n' >"$tmp/wrong.txt"
 refuses 2 'no-such-option' --settings wrong.txt row.xyz
 printf 'style = paper\n--style plain\n' >"$tmp/wrong.txt"
@@ -539,6 +552,8 @@ printf 'first\n' >"$tmp/wrong.txt"
 refuses 2 'wrong.txt:1: first: the option takes a value' --settings wrong.txt row.xyz
 printf 'settings = wrong.txt\n' >"$tmp/wrong.txt"
 refuses 2 'wrong.txt:1: ' --settings wrong.txt row.xyz
+printf 'setting = paper.txt\n' >"$tmp/wrong.txt"
+refuses 2 'wrong.txt:1: "setting" is no option' --settings wrong.txt row.xyz
 refuses 2 'missing.txt: ' --settings missing.txt row.xyz
 
 # A picture says how it was made: by its own text it is made again.
@@ -550,6 +565,14 @@ if command -v oiiotool >/dev/null 2>&1; then
     run 0 -q -s 96x54 -o made_again.png --settings again.txt row.xyz
     oiiotool --diff --fail 0 "$tmp/automatic.png" "$tmp/made_again.png" >/dev/null ||
         fail "the settings inside of a picture draw another one: $(cat "$tmp/again.txt")"
+    for options in '--view top -k height --floor' '--zoom 2 --up y -k id --log-scale' '-k height --log-scale --radius 0.5'; do
+        run 0 -q -s 96x54 -o seen.png $options row.xyz
+        oiiotool --info -v "$tmp/seen.png" |
+            awk '/^ *Settings: "/ { sub(/^ *Settings: "/, ""); inside = 1 } inside && /^"$/ { exit } inside' >"$tmp/again.txt"
+        run 0 -q -s 96x54 -o seen_again.png --settings again.txt row.xyz
+        oiiotool --diff --fail 0 "$tmp/seen.png" "$tmp/seen_again.png" >/dev/null ||
+            fail "$options: the settings inside draw another picture: $(cat "$tmp/again.txt")"
+    done
     # So do EXR, JPEG and TIFF, where there are such files.
     if (cd "$tmp" && $emulator "$program" -q -s 96x54 -o automatic.tif --style=paper -k charge --box row.xyz) \
         >/dev/null 2>&1; then

@@ -318,8 +318,8 @@ static void check_name(const char *pattern, uint64_t number, const char *expecte
 
 TEST(names_follow_patterns)
 {
-    static const char *const wrong[] = {"",  "out/",     "%s.png",  "%d%d.png", "%04x.png",
-                                        "%", "a%0d.png", "%4d.png", "%n",       "%010d.png"};
+    static const char *const wrong[] = {"",         "out/",    "%s.png", "%d%d.png",  "%04x.png", "%",
+                                        "a%0d.png", "%4d.png", "%n",     "%010d.png", "%d/a.png"};
     char error[200], name[8];
     out_path path;
     check_name("out/f_%04d.png", 7, "out/f_0007.png");
@@ -385,19 +385,22 @@ TEST(sheets_refuse_nonsense)
 TEST(sheets_scale_in_linear_light)
 {
     enum { W = 642, H = 10 };
-    static uint8_t rgb[H][W][3];
+    static uint8_t rgb[H][W][3], alpha[H][W];
+    static const uint8_t background[3] = {255, 0, 0};
     uint32_t width, height;
     for (int y = 0; y < H; y++)
         for (int x = 0; x < W; x++)
             memset(rgb[y][x], x % 2 ? 255 : 0, 3);
     contact_sheet *sheet = contact_sheet_create(1, 1, 1, W, H);
     assert_non_null(sheet);
-    contact_sheet_add(sheet, 0, 0, &rgb[0][0][0]);
-    contact_sheet_add(sheet, 1, 1, &rgb[0][0][0]); /* not on the sheet: skipped */
+    contact_sheet_add(sheet, 0, 0, &rgb[0][0][0], NULL, background);
+    contact_sheet_add(sheet, 1, 1, &rgb[0][0][0], NULL, background); /* not on the sheet: skipped */
     const uint8_t *pixels = contact_sheet_pixels(sheet, &width, &height);
     assert_int_equal(width, 320 + 16);
-    assert_near(pixels[((size_t)10 * width + 8 + 160) * 3], 188, 1); /* half the light, in sRGB */
-    assert_int_equal(pixels[0], 40);                                 /* paper */
+    assert_near(pixels[((size_t)10 * width + 8 + 160) * 3], 188, 1);         /* half the light, in sRGB */
+    assert_int_equal(pixels[0], 40);                                         /* paper */
+    contact_sheet_add(sheet, 0, 0, &rgb[0][0][0], &alpha[0][0], background); /* all is seen through */
+    assert_memory_equal(pixels + ((size_t)10 * width + 8 + 160) * 3, background, 3);
     contact_sheet_release(sheet);
 }
 
