@@ -110,10 +110,7 @@ static int set_lines(viewer *v, const cgt_figure_option *o, const char *lines, c
 static int is_of_reading(const viewer *v, const char *name, const char *lines)
 {
     const cgt_trajectory_options *const r = &v->draw->options.reading;
-    static const char *const names[] = {"unwrap", "whole", "trails"};
-    int is_one = 0;
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        is_one |= strcmp(name, names[i]) == 0;
+    int is_one = cgt_figure_option_is_of_frames(name);
     is_one |= strcmp(name, "bonds") == 0 && *lines && !r->all_bonds;
     is_one |= strcmp(name, "show") == 0 && strstr(lines, "site") && r->leave_out_sites;
     return is_one;
