@@ -162,22 +162,30 @@ static char **split_paths(char *lines, size_t *count)
     return paths;
 }
 
-/* What was shown is gone, and the new file takes its place. */
-static void replace(viewer *v, view_draw *draw, const render_options *options, int keeps_camera)
+/* What was shown is gone, and the new file takes its place. Frame and picks of the same files stay, and the conditions
+ * of the command line stay what they are; a new camera follows no selection. */
+static void replace(viewer *v, view_draw *draw, const render_options *options, int is_same, int keeps_camera)
 {
     const uint64_t frame = v->shown ? v->shown->chosen : 0;
     char size[32];
     cgt_camera camera;
+    if (v->draw && (is_same || draw->shows[0])) { /* else they were left out */
+        char *const shows = draw->shows;
+        draw->shows = v->draw->shows;
+        v->draw->shows = shows;
+    }
+    view_draw_stop(v->draw);
     view_frames_release(v->frames, v->shown);
     view_frames_finish(v->frames);
     view_draw_close(v->draw);
     v->draw = draw;
     v->shown = NULL;
     v->options.render = *options;
-    v->wanted = keeps_camera ? frame : 0;
-    v->is_arriving = !keeps_camera;
+    v->wanted = is_same ? frame : 0;
+    v->is_arriving |= !is_same;
     v->playing = v->scene_is_wrong = v->list = 0;
-    v->picks = keeps_camera ? v->picks : 0;
+    v->picks = is_same ? v->picks : 0;
+    v->filter.is_followed &= keeps_camera;
     v->drag = DRAG_NONE;
     snprintf(size, sizeof size, "%ux%u", v->width, v->height);
     view_draw_tell(draw, cgt_figure_set(draw->figure, "size", size));
@@ -246,7 +254,7 @@ static int open_by(viewer *v, char *paths, char *settings, int is_same, int keep
         return was_ended ? 1 : -1;
     }
     viewer_forget_settings(v);
-    replace(v, draw, &o.render, keeps_camera);
+    replace(v, draw, &o.render, is_same, keeps_camera);
     viewer_free_opened(&v->opened);
     v->opened = next;
     return start_frames(v);
@@ -261,7 +269,8 @@ void viewer_open_first(viewer *v)
         v->options.render.input_count = 0; /* there is no file */
     if (!draw)
         return;
-    replace(v, draw, &draw->options, 0);
+    viewer_forget_settings(v);
+    replace(v, draw, &draw->options, 0, 0);
     start_frames(v);
 }
 
