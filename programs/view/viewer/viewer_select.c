@@ -296,9 +296,9 @@ void viewer_select_picks(viewer *v)
     for (uint32_t i = 0; i < v->picks; i++)
         length += snprintf(formula + length, sizeof formula - (size_t)length, "%s%s == %u", i ? " or " : "",
                            v->shown->frame.id ? "id" : "index", v->pick[i].id);
-    viewer_select(v, formula);
     pthread_mutex_lock(&v->lock);
     free(v->formula);
     v->formula = strdup(formula);
     pthread_mutex_unlock(&v->lock);
+    viewer_select(v, formula); /* has the panel look for it */
 }
