@@ -263,8 +263,10 @@ static int open_by(viewer *v, char *paths, char *settings, int is_same, int keep
 void viewer_open_first(viewer *v)
 {
     int was_ended;
+    const char *const given = v->options.render.settings;
+    char *const copy = given ? strdup(given) : NULL; /* for another file, where this one cannot be opened */
     view_draw *const draw = open_and_tell(v, &v->options, &was_ended);
-    v->options.render.settings = NULL; /* what opens took them over */
+    v->options.render.settings = copy; /* what opens took them over */
     if (!draw && was_ended)
         v->options.render.input_count = 0; /* there is no file */
     if (!draw)
