@@ -326,20 +326,29 @@ static int is_there(const char *paths)
     return result;
 }
 
+/* The figure's; without a file those of the command line. */
 static char *current_lines(const viewer *v)
 {
-    const char *const given = v->options.render.settings; /* of a command line without a file */
-    return v->draw ? view_draw_get(v->draw, cgt_figure_get, NULL) : strdup(given ? given : "");
+    const char *const given = v->options.render.settings;
+    char *text = NULL;
+    size_t size;
+    if (v->draw)
+        return view_draw_get(v->draw, cgt_figure_get, NULL);
+    FILE *const to = open_memstream(&text, &size);
+    if (to)
+        settings_print_part(to, given ? given : "", 1);
+    return to && fclose(to) == 0 ? text : NULL;
 }
 
-void viewer_open(viewer *v, const char *paths)
+int viewer_open(viewer *v, const char *paths)
 {
     static const char *const of_place[] = {"camera", NULL};
     static const char *const of_any[] = {"style", NULL};
     char *text = NULL, *few = NULL;
     size_t size, few_size;
+    int result = -1;
     if (!paths[strspn(paths, "\n")])
-        return;
+        return 0;
     char *const lines = current_lines(v);
     FILE *const to = lines ? open_memstream(&text, &size) : NULL;
     FILE *const to_few = lines ? open_memstream(&few, &few_size) : NULL;
@@ -350,12 +359,13 @@ void viewer_open(viewer *v, const char *paths)
     const int failed = (to ? fclose(to) : -1) | (to_few ? fclose(to_few) : -1);
     if (failed)
         program_error("out of memory");
-    else if (open_lines(v, paths, text, 0) < 0 && strcmp(text, few) != 0 && is_there(paths) &&
-             open_lines(v, paths, few, 0) == 0)
+    else if ((result = open_lines(v, paths, text, 0)) < 0 && strcmp(text, few) != 0 && is_there(paths) &&
+             (result = open_lines(v, paths, few, 0)) == 0)
         viewer_say(v, "options that do not go with this file are left out"); /* why was said before */
     free(text);
     free(few);
     free(lines);
+    return result;
 }
 
 void viewer_read_anew(viewer *v)
@@ -379,10 +389,10 @@ int viewer_read_by(viewer *v, const char *name, const char *values)
         const size_t length = strcspn(value, "\n");
         fprintf(to, length ? "%s = %.*s\n" : "%s%.*s\n", name, (int)length, value);
     }
-    const int failed = !to || fclose(to) || open_lines(v, NULL, text, 1);
+    const int result = !to || fclose(to) ? -1 : open_lines(v, NULL, text, 1);
     free(text);
     free(lines);
-    return failed ? -1 : 0;
+    return result;
 }
 
 /* ---- Settings files ----------------------------------------------------------------------------------------- */
@@ -398,11 +408,27 @@ void viewer_load_settings(viewer *v, const char *path)
     }
     for (const char *line = lines; *line; line += strcspn(line, "\n") + 1)
         has_camera |= is_named(line, "camera");
+    const view_change change = {
+        .option = VIEW_ALL, .before = current_lines(v), .has_camera = has_camera, .camera = v->camera};
     if (!v->draw)
         viewer_say(v, "open a file first");
-    else if (open_lines(v, NULL, lines, !has_camera) == 0)
+    if (!v->draw || open_lines(v, NULL, lines, !has_camera)) {
+        free(change.before);
+    } else {
+        viewer_remember(v, change, 0);
         viewer_say(v, left_out[0] ? "%s is loaded, without %s" : "%s is loaded", path, left_out);
+    }
     free(lines);
+}
+
+int viewer_unload_settings(viewer *v, const view_change *change)
+{
+    const int result = open_lines(v, NULL, change->before, 1);
+    if (result == 0 && change->has_camera) {
+        v->camera = change->camera;
+        memcpy(v->pivot, v->camera.target, sizeof v->pivot);
+    }
+    return result;
 }
 
 /* By a name that is not there yet. */
