@@ -37,6 +37,15 @@ int cgt_figure_options_need_bonds(const figure_options *o)
     return (o->particles.bonds && !(o->particles.bond_distance > 0.0f)) || o->whole || o->unwrap;
 }
 
+int cgt_figure_option_is_of_frames(const char *name)
+{
+    static const char *const names[] = {"unwrap", "whole", "trails", "type-element"};
+    int is_one = 0;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        is_one |= strcmp(name, names[i]) == 0;
+    return is_one;
+}
+
 int cgt_picture_options_have_overlay(const picture_options *o)
 {
     return o->title || o->time || o->bar || o->legend || o->axes || o->scale.is_set || *o->label;

@@ -204,6 +204,10 @@ uint32_t cgt_particle_options_layer(particle_options *options, float opacity);
 /* Whether all bonds of frames are asked for, guessed ones, too. */
 int cgt_figure_options_need_bonds(const figure_options *o);
 
+/* Whether an option is one by which frames are taken: those that are kept stay as they were, and another value needs
+ * them anew. */
+int cgt_figure_option_is_of_frames(const char *name);
+
 /* Whether anything lies over the picture. */
 int cgt_picture_options_have_overlay(const picture_options *options);
 

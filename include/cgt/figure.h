@@ -147,8 +147,9 @@ CGT_API bool cgt_figure_get_option(uint32_t index, cgt_figure_option *option);
  * survey begins anew. But where frames are kept what was found stays, and the shown frame is made anew at once: colours
  * or a camera that the option changes are those of this frame, a camera of cgt_figure_set_camera ends with the second.
  *   value   NULL: without a value; copied, with blanks in place of ends of lines
- * Errors: INVALID_ARGUMENT (there is no such option; the value; it does not go with another option; unwrap, whole and
- *         trails where frames are kept), OUT_OF_MEMORY; where frames are kept as cgt_figure_show, too */
+ * Errors: INVALID_ARGUMENT (there is no such option; the value; it does not go with another option; unwrap, whole,
+ *         trails and type-element where frames are kept), OUT_OF_MEMORY; where frames are kept as cgt_figure_show,
+ *         too */
 CGT_API cgt_result cgt_figure_set(cgt_figure *figure, const char *name, const char *value);
 
 /* Sets options by lines "name = value", or "name" alone, of a settings file, in their order; what needs several of them

@@ -194,6 +194,11 @@ static void print_reading(FILE *to, const picture_lines *p)
         fputs(", all_bonds=True", to);
     if (r->leave_out_sites)
         fputs(", leave_out_sites=True", to);
+    if (r->fps > 0.0)
+        fprintf(to, ", fps=%.9g", r->fps);
+    print_text(to, ", clip=", r->clip);
+    if (r->no_limit)
+        fputs(", no_limit=True", to);
 }
 
 char *picture_lines_python(const picture_lines *p)

@@ -114,8 +114,7 @@ static int open_source(renderer *r)
     if (frame_source_open(&r->source, &r->figure->sequence, o->inputs, o->input_count, &o->reading, r->error,
                           sizeof r->error))
         return render_fail(r);
-    const uint64_t most = (uint64_t)o->memory_mib << 20;
-    r->source.keep.most = most < SIZE_MAX ? (size_t)most : SIZE_MAX;
+    r->source.keep.most = render_memory(o);
     return frame_source_want_columns(&r->source, r->error, sizeof r->error) ? render_fail(r) : 0;
 }
 

@@ -12,6 +12,7 @@
 #include "common/picture_lines.h"
 #include "common/program.h"
 #include "common/settings_file.h"
+#include "figure_state.h"
 #include "picture/files/image_write.h"
 #include "view/view_draw.h"
 
@@ -42,7 +43,7 @@ static picture_lines lines_of(const view_draw *d, const char *settings, const vi
 {
     const render_options *const o = &d->options;
     *reading = o->reading;
-    reading->all_bonds = view_draw_has(d, "bonds");
+    reading->all_bonds = cgt_figure_options_need_bonds(&d->figure->options);
     return (picture_lines){.settings = settings,
                            .inputs = o->inputs,
                            .input_count = o->input_count,

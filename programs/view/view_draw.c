@@ -69,7 +69,7 @@ static int open_input(view_draw *d)
     cgt_figure_set_source(d->figure, o->input);
     if (frame_source_open(&d->source, &d->raw, o->inputs, o->input_count, &o->reading, error, sizeof error))
         return fail(error);
-    d->source.keep.most = (size_t)o->memory_mib << 20;
+    d->source.keep.most = render_memory(o);
     cgt_trajectory_get_origin(d->source.file, d->origin);
     const int state = figure_run_want_all(&d->source, error, sizeof error);
     if (state < 0)

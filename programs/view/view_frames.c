@@ -13,7 +13,6 @@
 #include <sys/stat.h>
 
 #include "common/program.h"
-#include "common/stop_flag.h"
 #include "trajectory/trajectory_status.h"
 
 typedef struct view_slot {
@@ -24,7 +23,6 @@ struct view_frames {
     view_frames_options options;
     frame_source source; /* of the thread that reads, as the next */
     cgt_trajectory_options reading;
-    stop_flag stop; /* ends the waiting for more of a run */
     pthread_t reader, counter;
     int has_reader, has_counter;
     uint64_t lead;        /* frames before one that it needs */
@@ -217,7 +215,7 @@ static void *count_frames(void *user)
             pthread_mutex_lock(&f->lock);
             f->count = f->count > chosen ? f->count : chosen;
             f->is_counted |= result == CGT_END;
-            if (result == CGT_END && !(f->reading.follow > 0.0) && chosen < f->end)
+            if (result == CGT_END && !(f->options.reading->follow > 0.0) && chosen < f->end)
                 f->end = chosen;
             closing = f->closing;
             pthread_mutex_unlock(&f->lock);
@@ -254,8 +252,6 @@ view_frames *view_frames_start(frame_source *source, const view_frames_options *
     f->has_trails = cgt_figure_get(options->figure, "trails", NULL, 0) > 0;
     f->reading = *options->reading;
     f->reading.follow = 0.0;
-    f->reading.stop = stop_flag_is_set;
-    f->reading.stop_user = &f->stop;
     f->end = options->range.last == UINT64_MAX - 1 ? UINT64_MAX : frame_range_count(&options->range, UINT64_MAX);
     if (options->total) {
         f->count = frame_range_count(&options->range, options->total);
@@ -322,7 +318,6 @@ void view_frames_finish(view_frames *f)
         return;
     pthread_mutex_lock(&f->lock);
     f->closing = 1;
-    f->stop = 1;
     pthread_cond_broadcast(&f->changed);
     pthread_mutex_unlock(&f->lock);
     if (f->has_reader)

@@ -26,7 +26,7 @@ typedef struct view_frames_options {
     cgt_figure *figure;       /* that keeps the frames, after its survey; in a thread of its own */
     const char *const *paths; /* of the run, and how they are read: for the count */
     size_t path_count;
-    const cgt_trajectory_options *reading;
+    const cgt_trajectory_options *reading; /* lives as long as the frames */
     frame_range range;
     size_t memory;            /* bytes */
     uint64_t total;           /* frames of the file; 0: unknown */
@@ -56,6 +56,7 @@ void view_frames_get(view_frames *f, view_frames_state *state);
 /* Whether a frame is in memory. */
 int view_frames_has(view_frames *f, uint64_t chosen);
 
+/* Waits for both threads: the stop of the source's options is to end a read that waits for more of a run. */
 void view_frames_finish(view_frames *f);
 
 #endif

@@ -75,6 +75,14 @@ static const char *why_left_out(const char *name)
 
 const char *view_options_why_not(const char *name) { return why_left_out(name); }
 
+int view_options_check_opacity(int transparent, const char *pictures, char *error, size_t size)
+{
+    if (!transparent || image_format_of(pictures) == IMAGE_PNG)
+        return 0;
+    snprintf(error, size, "--transparent: \"%s\" holds no opacity; .png does", pictures);
+    return -1;
+}
+
 static int finish(void *options, const char **operands, size_t count, char *error, size_t size)
 {
     view_options *const o = options;
@@ -87,10 +95,8 @@ static int finish(void *options, const char **operands, size_t count, char *erro
         snprintf(error, size, "--pictures: \"%s\" ends in none of .png, .jpg, .tif", o->pictures);
         return -1;
     }
-    if (o->render.figure.picture.transparent && format != IMAGE_PNG) {
-        snprintf(error, size, "--transparent: \"%s\" holds no opacity; .png does", o->pictures);
+    if (view_options_check_opacity(o->render.figure.picture.transparent, o->pictures, error, size))
         return -1;
-    }
     o->render.print_settings = count == 0; /* which is no error here: the window asks for a file */
     const int result = render_options_finish(&o->render, operands, count, error, size);
     o->render.print_settings = 0;

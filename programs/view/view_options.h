@@ -26,4 +26,7 @@ void view_options_parse(view_options *options, int argc, char **argv);
 /* Why an option cannot change while the window is open; NULL: it can. */
 const char *view_options_why_not(const char *name);
 
+/* Whether pictures of these names hold a transparent background. Returns 0, or -1 with a sentence. */
+int view_options_check_opacity(int transparent, const char *pictures, char *error, size_t size);
+
 #endif

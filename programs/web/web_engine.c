@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 
 #include "common/settings_file.h"
+#include "options/figure_options.h"
 #include "view/view_camera.h"
 #include "web/web_state.h"
 #include "web/web_text.h"
@@ -527,10 +528,8 @@ int web_take(const char *settings)
  * it back. What is refused changes nothing. */
 EMSCRIPTEN_KEEPALIVE int web_put(const char *name, const char *values)
 {
-    static const char *const of_reading[] = {"unwrap", "whole", "trails"};
-    for (size_t i = 0; web.shown && i < sizeof of_reading / sizeof of_reading[0]; i++)
-        if (strcmp(name, of_reading[i]) == 0)
-            return read_anew(name, values);
+    if (web.shown && cgt_figure_option_is_of_frames(name))
+        return read_anew(name, values);
     char *const before = get_settings(web.figure, name);
     if (!before)
         return web_fail("out of memory for options");

@@ -74,6 +74,7 @@ static void on_frames(void *user) { (void)user; }
 
 static const char *settings = "ambient = 16\n";
 static uint64_t survey_of = VIEW_SURVEY_AUTO; /* frames */
+static double follow_of;                      /* seconds */
 
 static viewer *open_viewer(uint32_t memory)
 {
@@ -87,6 +88,7 @@ static viewer *open_viewer(uint32_t memory)
     o.render.figure.height = HEIGHT;
     o.render.settings = strdup(settings);
     o.render.output.survey = survey_of;
+    o.render.reading.follow = follow_of;
     o.render.threads = 2;
     o.render.memory_mib = memory;
     viewer *const v = waiting = viewer_create(&o, wake, NULL);
@@ -355,7 +357,7 @@ TEST(bonds_and_clicks)
     snprintf(path, sizeof path, "run.lammpstrj");
 }
 
-/* A sphere that is hidden is not hit; all are back with a. */
+/* A sphere that is hidden is not hit; all are back with a, also after the file was read anew. */
 TEST(hiding)
 {
     viewer *const v = open_viewer(64);
@@ -379,6 +381,8 @@ TEST(hiding)
     assert_int_equal(v->picks, behind >= 0);
     if (behind >= 0)
         assert_int_equal(v->pick[0].element, behind);
+    key(v, 'r', 0);
+    settle(v);
     key(v, VIEW_KEY_ESCAPE, 0);
     key(v, 'a', 0);
     settle(v);
@@ -451,12 +455,14 @@ static uint64_t sum(viewer *v)
     return total;
 }
 
-/* Any option may be set while a frame is shown; what is refused says why, and changes nothing. */
+/* Any option may be set while a frame is shown, the last two by reading anew; what is refused says why, and changes
+ * nothing. */
 TEST(options_are_set_in_the_window)
 {
-    static const char *const options[][2] = {
-        {"style", "paper"},      {"color", "q"},         {"bonds", "0.9"}, {"show", "type > 1"}, {"ortho", NULL},
-        {"background", "white"}, {"radius-by", "q/300"}, {"box", NULL},    {"trails", "3"}}; /* the last reads anew */
+    static const char *const options[][2] = {{"style", "paper"},     {"color", "q"},  {"bonds", "0.9"},
+                                             {"show", "type > 1"},   {"ortho", NULL}, {"background", "white"},
+                                             {"radius-by", "q/300"}, {"box", NULL},   {"trails", "3"},
+                                             {"type-element", "1=O"}};
     static const char *const wrong[][2] = {
         {"size", "10 x 10"}, {"color", "no_such"}, {"trails", "0"}, {"fill", "much"}, {"nothing", "1"}};
     viewer *const v = open_viewer(64);
@@ -551,6 +557,71 @@ TEST(selections)
     viewer_free(v);
 }
 
+static void expect_option(viewer *v, const char *name, const char *lines)
+{
+    char *const text = view_draw_get(v->draw, cgt_figure_get, name);
+    assert_string_equal(text, lines);
+    free(text);
+}
+
+/* What one key has changed comes back at once, and what cannot come back yet by the next undo. */
+TEST(changes_are_undone)
+{
+    settings = "ambient = 16\ntrails = 2\nshow = z < 5\ncolor = q\nrange = 0,100\n";
+    viewer *const v = open_viewer(64);
+    settings = "ambient = 16\n";
+    settle(v);
+    assert_int_equal(viewer_set(v, "style", "paper"), 0);
+    const view_event next = {.kind = VIEW_KEY, .key = VIEW_KEY_RIGHT};
+    viewer_send(v, &next);
+    key(v, 'u', 0); /* before the frame is there */
+    expect_option(v, "style", "paper\n");
+    settle(v);
+    key(v, 'u', 0);
+    expect_option(v, "style", "");
+
+    key(v, 'l', 0);
+    key(v, VIEW_KEY_UP, 0);
+    key(v, VIEW_KEY_ENTER, 0);
+    expect_option(v, "range", "");
+    key(v, 'u', 0);
+    expect_option(v, "range", "0,100\n");
+    expect_option(v, "color", "q\n");
+
+    v->picks = 1;
+    v->pick[0] = (view_pick){.element = 7, .id = SPHERES - 7};
+    key(v, 'd', 0);
+    key(v, 'a', 0);
+    expect_option(v, "show", "z < 5\n");
+    key(v, 'u', 0);
+    expect_option(v, "show", "z < 5\nid != 193\n");
+    viewer_free(v);
+}
+
+static void expect_message(viewer *v, const char *part) { assert_non_null(strstr(v->message[0].text, part)); }
+
+/* However many files there are; without a place for its log it is not made. */
+TEST(movies_of_many_files)
+{
+    enum { MANY = 5000 };
+    static const char *many[MANY];
+    viewer *const v = open_viewer(64);
+    settle(v);
+    for (int i = 0; i < MANY; i++)
+        many[i] = path;
+    v->options.render.inputs = many;
+    v->options.render.input_count = MANY;
+    setenv("TMPDIR", "/nonexistent", 1);
+    key(v, 'm', 0);
+    unsetenv("TMPDIR");
+    assert_false(v->movie.is_made);
+    expect_message(v, "no temporary file for a movie: ");
+    key(v, 'm', 0);
+    if (!v->movie.is_made)
+        expect_message(v, "cgt-render cannot be started: ");
+    viewer_free(v);
+}
+
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 
 TEST(frames_stay_within_memory)
@@ -608,6 +679,26 @@ TEST(little_memory_loses_no_frame)
         assert_true(s.bytes <= 4 * frame);
         view_frames_release(v->frames, f);
     }
+    viewer_free(v);
+}
+
+/* A reader that waits for more of a run does not keep the window waiting. */
+TEST(a_followed_run_is_read_anew)
+{
+    view_frames_state s = {0};
+    follow_of = 60.0;
+    viewer *const v = open_viewer(64);
+    follow_of = 0.0;
+    settle(v);
+    for (int i = 0; i < 20000 && !(s.is_reading && s.reading == FRAMES); i++) {
+        usleep(200);
+        view_frames_get(v->frames, &s);
+    }
+    assert_int_equal(s.reading, FRAMES);
+    const double begin = program_seconds();
+    key(v, 'r', 0);
+    assert_true(program_seconds() - begin < 30.0);
+    expect_message(v, "read anew");
     viewer_free(v);
 }
 
@@ -750,6 +841,50 @@ TEST(openings_can_be_ended)
         }
         viewer_free(waiting);
     }
+}
+
+/* Settings leave frame and picks of the same files where they are, and can be undone; with other files they are for
+ * these, where the camera goes with nothing of before. */
+TEST(settings_files_are_opened)
+{
+    static const char *const both[] = {"view.settings\nagain.lammpstrj\n", "again.lammpstrj\nview.settings"};
+    const view_event save = {.kind = VIEW_KEY, .key = 's', .control = 1};
+    assert_int_equal(system("cp run.lammpstrj again.lammpstrj && rm -f view.settings"), 0);
+    viewer *const v = open_viewer(64);
+    settle(v);
+    key(v, VIEW_KEY_END, 0);
+    settle(v);
+    assert_int_equal(viewer_set(v, "style", "paper"), 0);
+    viewer_send(v, &save);
+    settle(v);
+    assert_int_equal(viewer_set(v, "style", "plain"), 0);
+    drag(v, 20.0f, 30.0f, 50.0f, 40.0f);
+    const cgt_camera camera = v->camera;
+    v->picks = 1;
+    v->pick[0] = (view_pick){.element = 7, .id = SPHERES - 7};
+    send_text(v, VIEW_OPEN, "view.settings\n");
+    settle(v);
+    expect_option(v, "style", "paper\n");
+    assert_memory_not_equal(&v->camera, &camera, sizeof camera);
+    assert_int_equal(v->shown->frame.number, FRAMES - 1);
+    assert_int_equal(v->picks, 1);
+    key(v, 'u', 0);
+    settle(v);
+    expect_option(v, "style", "plain\n");
+    assert_memory_equal(&v->camera, &camera, sizeof camera);
+    assert_int_equal(v->shown->frame.number, FRAMES - 1);
+    for (size_t i = 0; i < TEST_COUNT(both); i++) {
+        send_text(v, VIEW_SELECT, "z > 5");
+        send_text(v, VIEW_USE, "follow");
+        assert_true(v->filter.is_followed);
+        send_text(v, VIEW_OPEN, both[i]);
+        settle(v);
+        expect_option(v, "style", "paper\n");
+        assert_int_equal(v->options.render.input_count, 1);
+        assert_string_equal(v->options.render.input, "again.lammpstrj");
+        assert_false(v->filter.is_followed);
+    }
+    viewer_free(v);
 }
 
 /* The first file that is not waited for is none, and nothing has failed. */

@@ -201,6 +201,30 @@ write_anew() {
 talk 0 write_anew --style plain -a 1 few.xyz
 same view_0000-4.png # by the file that is there now
 
+# Looks of the command line are also for the next file, where the first cannot be opened.
+rm -f "$tmp"/view_*
+view 0 --style plain -a 1 --radius 0.1 missing.xyz <<END
+wait 0.1
+drop few.xyz
+settle
+key s
+settle
+END
+same view_0000.png
+grep -q -e '--style=plain' "$tmp/command" || fail "options are lost with a file: $(cat "$tmp/command")"
+# What cgt-render refuses is not written, and no command line is printed for it.
+printf 'transparent\n' >"$tmp/clear.settings"
+view 0 --style plain -a 1 -o 'clear_%04d.jpg' few.xyz <<'END'
+settle
+drop clear.settings
+settle
+key s
+key Shift+C
+wait 0.1
+END
+says err 'clear_%04d.jpg" holds no opacity'
+grep -q '^cgt-render' "$tmp/stdout" || [ -e "$tmp/clear_0000.jpg" ] && fail "a .jpg that is to be transparent"
+
 # A movie is cgt-render's, and one that is ended leaves nothing; Python for a picture.
 mkdir "$tmp/temporary"
 TMPDIR=$tmp/temporary
@@ -248,6 +272,14 @@ if command -v python3 >/dev/null && "$program" --help | grep -q 'o opens a panel
     (cd "$tmp" && view_python --first=5 --mesh ./-wall.obj --origin=1,2,3 --color speed "$pour")
     grep -qxF 'for frame in run[4:6]:' "$tmp/stdout" || fail "Python's lines: $(cat "$tmp/stdout")"
     grep -qxF 'figure.set_mesh(cgt.read("./-wall.obj", origin=(1, 2, 3))[0])' "$tmp/stdout" ||
+        fail "Python's lines: $(cat "$tmp/stdout")"
+    # How files are read: molecules that are made whole need bonds.
+    printf '2\nLattice="9 0 0 0 9 0 0 0 9" Properties=species:S:1:pos:R:3\nO 0 0 0\nH 0 0 8\n' >"$tmp/box.xyz"
+    view_python --whole box.xyz
+    grep -qxF 'run = cgt.read("box.xyz", all_bonds=True, leave_out_sites=True)' "$tmp/stdout" ||
+        fail "Python's lines: $(cat "$tmp/stdout")"
+    view_python --fps 60 --no-limit ./-wall.obj
+    grep -qxF 'run = cgt.read("./-wall.obj", leave_out_sites=True, fps=60, no_limit=True)' "$tmp/stdout" ||
         fail "Python's lines: $(cat "$tmp/stdout")"
 fi
 
@@ -461,10 +493,12 @@ grow() {
     ask '^frame 2, '
     printf 'key Space\nsettle\nsay\n'
 }
-{ frame 0; frame 1; } >"$tmp/grows.xyz"
-talk 0 grow --follow 90 grows.xyz
-sed -n 's/^frame \([0-9]*\),.*/\1/p' "$tmp/stdout" | uniq >"$tmp/frames"
-sort -c -u "$tmp/frames" && [ "$(tail -n 1 "$tmp/frames")" = 2 ] || fail "a run that grows: $(cat "$tmp/stdout")"
+for survey in 90 1; do # with the second the window counts frames by itself
+    { frame 0; frame 1; } >"$tmp/grows.xyz"
+    talk 0 grow --follow 90 --survey $survey grows.xyz
+    sed -n 's/^frame \([0-9]*\),.*/\1/p' "$tmp/stdout" | uniq >"$tmp/frames"
+    sort -c -u "$tmp/frames" && [ "$(tail -n 1 "$tmp/frames")" = 2 ] || fail "a run that grows: $(cat "$tmp/stdout")"
+done
 
 # Options: what is left out is refused in words, what is shared has the sentences of cgt-render.
 view 2 --orbit 3 "$pour" </dev/null

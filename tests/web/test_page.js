@@ -86,9 +86,9 @@ async function testPanel(browser, address, [across, down]) {
     await test(`${name}: changes show, and are undone`, async () => {
         await settle(page);
         const pictures = [await pixels(page)];
-        for (const [option, value] of [['trails', '3'], ['color', 'z'], ['background', '203040'], ['box', undefined],
-                                       ['background', '604020'], ['bonds', '1.1'], ['show', 'z < 5\nx > 0'],
-                                       ['style', 'plain']]) {
+        for (const [option, value] of [['trails', '3'], ['type-element', '1=O'], ['color', 'z'],
+                                       ['background', '203040'], ['box', undefined], ['background', '604020'],
+                                       ['bonds', '1.1'], ['show', 'z < 5\nx > 0'], ['style', 'plain']]) {
             if (option === 'style')
                 await page.run(`(() => { cgtPage.left = -1; const s = document.getElementById('option-style');
                     s.value = 'plain'; s.onchange(); })()`);

@@ -89,4 +89,11 @@ void render_options_init(render_options *options);
  * (PROGRAM_USAGE). */
 void render_options_parse(render_options *options, int argc, char **argv);
 
+/* memory_mib in bytes, as far as there are addresses. */
+static inline size_t render_memory(const render_options *o)
+{
+    const uint64_t bytes = (uint64_t)o->memory_mib << 20;
+    return bytes < SIZE_MAX ? (size_t)bytes : SIZE_MAX;
+}
+
 #endif

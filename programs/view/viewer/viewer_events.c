@@ -6,8 +6,11 @@
 #include "view/viewer/viewer_internal.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "common/settings_file.h"
 
 static void camera_moved(viewer *v)
 {
@@ -299,22 +302,37 @@ static void key(viewer *v, int key, int shift, int control)
     }
 }
 
+static int is_of_settings(const char *line)
+{
+    static const char ending[] = ".settings";
+    const size_t length = strcspn(line, "\n"), end = sizeof ending - 1;
+    return length > end && strncmp(line + length - end, ending, end) == 0;
+}
+
+/* Settings are for the files that come with them, else for those that are shown. */
 static void open_files(viewer *v, const char *paths)
 {
-    const size_t first = strcspn(paths, "\n"), ending = sizeof ".settings" - 1;
-    if (first > ending && strncmp(paths + first - ending, ".settings", ending) == 0) {
-        char *const path = strndup(paths, first);
-        if (path)
-            viewer_load_settings(v, path);
-        free(path);
-    } else {
-        viewer_open(v, paths);
-    }
+    char *const line = calloc(strlen(paths) + 2, 1), *const others = calloc(strlen(paths) + 2, 1);
+    size_t used = 0;
+    if (!line || !others)
+        program_error("out of memory");
+    for (const char *c = paths; others && *c; c = settings_next_line(c))
+        if (!is_of_settings(c))
+            used += (size_t)sprintf(others + used, "%.*s\n", (int)strcspn(c, "\n"), c);
+    const int failed = !line || !others || viewer_open(v, others);
+    for (const char *c = paths; !failed && *c; c = settings_next_line(c))
+        if (is_of_settings(c)) {
+            sprintf(line, "%.*s", (int)strcspn(c, "\n"), c);
+            viewer_load_settings(v, line);
+        }
+    free(line);
+    free(others);
     v->changed = 1;
 }
 
 void viewer_handle(viewer *v, const view_event *e)
 {
+    v->event++;
     if (e->kind == VIEW_RESIZE) {
         if (viewer_picture_resize(v, e->width, e->height, e->scale))
             v->wants_end = 1;

@@ -17,6 +17,7 @@
 #include "view/viewer/viewer.h"
 
 enum { VIEW_CHANGES = 100, VIEW_SENTENCE = 1024 };
+#define VIEW_ALL UINT32_MAX /* in place of an option */
 enum { VIEW_PICKS = MEASURE_MOST, VIEW_MESSAGES = 6, VIEW_LIST_MOST = 300, VIEW_LEVELS = 6 };
 
 /* A sphere or triangle that was clicked. It is followed through the frames by its id, where there are ids. */
@@ -61,10 +62,13 @@ typedef struct view_movie {
     uint64_t frames; /* so far */
 } view_movie;
 
-/* What can be undone. */
+/* What can be undone; what one event has changed is undone together. */
 typedef struct view_change {
-    uint32_t option;
-    char *before; /* its values */
+    uint32_t option; /* VIEW_ALL: of a settings file that was loaded */
+    char *before;    /* its values; of all the lines */
+    int has_camera;  /* the file had one; before it was: */
+    cgt_camera camera;
+    uint64_t event;
 } view_change;
 
 typedef enum view_quality {
@@ -136,7 +140,8 @@ struct viewer {
     char *clipboard; /* NULL: nothing new */
     view_change change[VIEW_CHANGES];
     uint32_t change_count;
-    int panel; /* view_panel_state */
+    uint64_t event; /* the number of the one at hand */
+    int panel;      /* view_panel_state */
 
     stop_flag stop; /* ends the picture at hand */
     stop_flag closing;
@@ -165,7 +170,7 @@ struct viewer {
 };
 
 /* viewer_set.c: all controls of looks go this way. Makes these lines all values of an option, and what is seen follows;
- * or nothing changes and a sentence tells why. Returns 0 or -1. */
+ * or nothing changes and a sentence tells why. Returns 0, -1, or 1 where it may be tried again. */
 typedef enum view_put {
     VIEW_PUT_NEW,
     VIEW_PUT_ON, /* goes on with the last change, as a slider does */
@@ -174,10 +179,12 @@ typedef enum view_put {
 int viewer_put(viewer *v, const char *name, const char *lines, view_put how, char *why, size_t size);
 void viewer_take_put(viewer *v, const view_event *event);
 void viewer_undo(viewer *v);
+void viewer_remember(viewer *v, view_change next, int continues); /* takes next.before over */
 
 /* The same of one value, which is added where the option repeats, and of none; the sentence is printed. */
 int viewer_set(viewer *v, const char *name, const char *value);
 int viewer_unset(viewer *v, const char *name);
+int viewer_set_lines(viewer *v, const char *name, const char *lines); /* all values */
 
 int viewer_show_frame(viewer *v, view_frame *frame); /* makes it the one that is drawn; the same results */
 void viewer_publish(viewer *v);                      /* other threads see the options as they are now */
@@ -216,12 +223,14 @@ void viewer_use_selection(viewer *v, const char *what);
 void viewer_follow_selection(viewer *v); /* after a new frame */
 void viewer_free_selection(viewer *v);
 
-/* viewer_open.c: what fails leaves all as it is, with the message printed. Paths are lines. */
+/* viewer_open.c: what fails leaves all as it is, with the message printed. Paths are lines. Returns 0, -1, or 1 where
+ * the user ended it. */
 void viewer_open_first(viewer *v); /* what the command line names */
-void viewer_open(viewer *v, const char *paths);
+int viewer_open(viewer *v, const char *paths);
 void viewer_read_anew(viewer *v);
-int viewer_read_by(viewer *v, const char *name, const char *values); /* other values of an option: 0 or -1 */
+int viewer_read_by(viewer *v, const char *name, const char *values); /* other values of an option */
 void viewer_load_settings(viewer *v, const char *path);
+int viewer_unload_settings(viewer *v, const view_change *change);
 void viewer_save_settings(viewer *v);
 void viewer_forget_settings(viewer *v); /* of a command line without a file */
 void viewer_free_opened(view_opened *opened);

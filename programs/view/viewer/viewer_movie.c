@@ -16,8 +16,6 @@
 #include "common/picture_lines.h"
 #include "system/system.h"
 
-enum { MOST_ARGUMENTS = 4096 };
-
 static const double poll_every = 0.25; /* seconds between two looks at it */
 
 /* ---- The command -------------------------------------------------------------------------------------------- */
@@ -43,6 +41,8 @@ static int make_log(char *path, size_t size)
     const int file = mkstemp(path);
     if (file >= 0)
         close(file);
+    else
+        path[0] = '\0'; /* there is none to remove */
     return file >= 0 ? 0 : -1;
 }
 
@@ -50,16 +50,22 @@ static int start(viewer *v, char *settings, float turn)
 {
     view_movie *const m = &v->movie;
     const render_options *const o = &v->options.render;
-    const char *argv[MOST_ARGUMENTS];
+    const size_t others = 16; /* beside the settings' options and the files */
     char renderer[4096], text[6][128];
-    size_t count = 0;
+    size_t count = 0, options = 0;
     char *const lines = picture_lines_options(settings);
+    for (const char *line = lines; line && *line; line += strlen(line) + 1)
+        options++;
+    const char **const argv = lines ? malloc((options + o->input_count + others) * sizeof *argv) : NULL;
+    if (!argv) {
+        program_error("out of memory for a movie");
+        free(lines);
+        return ENOMEM;
+    }
     find_renderer(renderer, sizeof renderer);
     argv[count++] = renderer;
-    for (char *line = lines; line && *line && count + o->input_count + 16 < MOST_ARGUMENTS;) {
+    for (const char *line = lines; *line; line += strlen(line) + 1)
         argv[count++] = line;
-        line += strlen(line) + 1;
-    }
     snprintf(text[0], sizeof text[0], "--first=%" PRIu64, o->range.first);
     snprintf(text[1], sizeof text[1], "--last=%" PRIu64, o->range.last);
     snprintf(text[2], sizeof text[2], "--every=%" PRIu64, o->range.every);
@@ -74,7 +80,8 @@ static int start(viewer *v, char *settings, float turn)
     for (size_t i = 0; i < o->input_count; i++)
         argv[count++] = o->inputs[i];
     argv[count] = NULL;
-    const int wrong = lines ? process_start(&m->child, argv, m->messages) : ENOMEM;
+    const int wrong = process_start(&m->child, argv, m->messages);
+    free(argv);
     free(lines);
     if (wrong)
         program_error("%s cannot be started: %s", renderer, strerror(wrong));
@@ -122,7 +129,7 @@ void viewer_start_movie(viewer *v, float turn)
         m->is_made = 1;
         viewer_say(v, "%s is being made; m ends it", m->name);
     } else {
-        if (!m->messages || !m->log[0])
+        if (settings && (!m->messages || !m->log[0]))
             program_error("no temporary file for a movie: %s", strerror(errno));
         clean(v);
     }

@@ -162,22 +162,30 @@ static char **split_paths(char *lines, size_t *count)
     return paths;
 }
 
-/* What was shown is gone, and the new file takes its place. */
-static void replace(viewer *v, view_draw *draw, const render_options *options, int keeps_camera)
+/* What was shown is gone, and the new file takes its place. Frame and picks of the same files stay, and the conditions
+ * of the command line stay what they are; a new camera follows no selection. */
+static void replace(viewer *v, view_draw *draw, const render_options *options, int is_same, int keeps_camera)
 {
     const uint64_t frame = v->shown ? v->shown->chosen : 0;
     char size[32];
     cgt_camera camera;
+    if (v->draw && (is_same || draw->shows[0])) { /* else they were left out */
+        char *const shows = draw->shows;
+        draw->shows = v->draw->shows;
+        v->draw->shows = shows;
+    }
+    view_draw_stop(v->draw);
     view_frames_release(v->frames, v->shown);
     view_frames_finish(v->frames);
     view_draw_close(v->draw);
     v->draw = draw;
     v->shown = NULL;
     v->options.render = *options;
-    v->wanted = keeps_camera ? frame : 0;
-    v->is_arriving = !keeps_camera;
+    v->wanted = is_same ? frame : 0;
+    v->is_arriving |= !is_same;
     v->playing = v->scene_is_wrong = v->list = 0;
-    v->picks = keeps_camera ? v->picks : 0;
+    v->picks = is_same ? v->picks : 0;
+    v->filter.is_followed &= keeps_camera;
     v->drag = DRAG_NONE;
     snprintf(size, sizeof size, "%ux%u", v->width, v->height);
     view_draw_tell(draw, cgt_figure_set(draw->figure, "size", size));
@@ -193,7 +201,7 @@ static void replace(viewer *v, view_draw *draw, const render_options *options, i
 
 static int start_frames(viewer *v)
 {
-    v->frames = view_draw_start_frames(v->draw, (size_t)v->options.render.memory_mib << 20, viewer_on_frames, v);
+    v->frames = view_draw_start_frames(v->draw, render_memory(&v->options.render), viewer_on_frames, v);
     if (!v->frames) { /* there is a message to read */
         view_draw_close(v->draw);
         v->draw = NULL;
@@ -246,7 +254,7 @@ static int open_by(viewer *v, char *paths, char *settings, int is_same, int keep
         return was_ended ? 1 : -1;
     }
     viewer_forget_settings(v);
-    replace(v, draw, &o.render, keeps_camera);
+    replace(v, draw, &o.render, is_same, keeps_camera);
     viewer_free_opened(&v->opened);
     v->opened = next;
     return start_frames(v);
@@ -255,13 +263,16 @@ static int open_by(viewer *v, char *paths, char *settings, int is_same, int keep
 void viewer_open_first(viewer *v)
 {
     int was_ended;
+    const char *const given = v->options.render.settings;
+    char *const copy = given ? strdup(given) : NULL; /* for another file, where this one cannot be opened */
     view_draw *const draw = open_and_tell(v, &v->options, &was_ended);
-    v->options.render.settings = NULL; /* what opens took them over */
+    v->options.render.settings = copy; /* what opens took them over */
     if (!draw && was_ended)
         v->options.render.input_count = 0; /* there is no file */
     if (!draw)
         return;
-    replace(v, draw, &draw->options, 0);
+    viewer_forget_settings(v);
+    replace(v, draw, &draw->options, 0, 0);
     start_frames(v);
 }
 
@@ -315,20 +326,29 @@ static int is_there(const char *paths)
     return result;
 }
 
+/* The figure's; without a file those of the command line. */
 static char *current_lines(const viewer *v)
 {
-    const char *const given = v->options.render.settings; /* of a command line without a file */
-    return v->draw ? view_draw_get(v->draw, cgt_figure_get, NULL) : strdup(given ? given : "");
+    const char *const given = v->options.render.settings;
+    char *text = NULL;
+    size_t size;
+    if (v->draw)
+        return view_draw_get(v->draw, cgt_figure_get, NULL);
+    FILE *const to = open_memstream(&text, &size);
+    if (to)
+        settings_print_part(to, given ? given : "", 1);
+    return to && fclose(to) == 0 ? text : NULL;
 }
 
-void viewer_open(viewer *v, const char *paths)
+int viewer_open(viewer *v, const char *paths)
 {
     static const char *const of_place[] = {"camera", NULL};
     static const char *const of_any[] = {"style", NULL};
     char *text = NULL, *few = NULL;
     size_t size, few_size;
+    int result = -1;
     if (!paths[strspn(paths, "\n")])
-        return;
+        return 0;
     char *const lines = current_lines(v);
     FILE *const to = lines ? open_memstream(&text, &size) : NULL;
     FILE *const to_few = lines ? open_memstream(&few, &few_size) : NULL;
@@ -339,12 +359,13 @@ void viewer_open(viewer *v, const char *paths)
     const int failed = (to ? fclose(to) : -1) | (to_few ? fclose(to_few) : -1);
     if (failed)
         program_error("out of memory");
-    else if (open_lines(v, paths, text, 0) < 0 && strcmp(text, few) != 0 && is_there(paths) &&
-             open_lines(v, paths, few, 0) == 0)
+    else if ((result = open_lines(v, paths, text, 0)) < 0 && strcmp(text, few) != 0 && is_there(paths) &&
+             (result = open_lines(v, paths, few, 0)) == 0)
         viewer_say(v, "options that do not go with this file are left out"); /* why was said before */
     free(text);
     free(few);
     free(lines);
+    return result;
 }
 
 void viewer_read_anew(viewer *v)
@@ -368,10 +389,10 @@ int viewer_read_by(viewer *v, const char *name, const char *values)
         const size_t length = strcspn(value, "\n");
         fprintf(to, length ? "%s = %.*s\n" : "%s%.*s\n", name, (int)length, value);
     }
-    const int failed = !to || fclose(to) || open_lines(v, NULL, text, 1);
+    const int result = !to || fclose(to) ? -1 : open_lines(v, NULL, text, 1);
     free(text);
     free(lines);
-    return failed ? -1 : 0;
+    return result;
 }
 
 /* ---- Settings files ----------------------------------------------------------------------------------------- */
@@ -387,11 +408,27 @@ void viewer_load_settings(viewer *v, const char *path)
     }
     for (const char *line = lines; *line; line += strcspn(line, "\n") + 1)
         has_camera |= is_named(line, "camera");
+    const view_change change = {
+        .option = VIEW_ALL, .before = current_lines(v), .has_camera = has_camera, .camera = v->camera};
     if (!v->draw)
         viewer_say(v, "open a file first");
-    else if (open_lines(v, NULL, lines, !has_camera) == 0)
+    if (!v->draw || open_lines(v, NULL, lines, !has_camera)) {
+        free(change.before);
+    } else {
+        viewer_remember(v, change, 0);
         viewer_say(v, left_out[0] ? "%s is loaded, without %s" : "%s is loaded", path, left_out);
+    }
     free(lines);
+}
+
+int viewer_unload_settings(viewer *v, const view_change *change)
+{
+    const int result = open_lines(v, NULL, change->before, 1);
+    if (result == 0 && change->has_camera) {
+        v->camera = change->camera;
+        memcpy(v->pivot, v->camera.target, sizeof v->pivot);
+    }
+    return result;
 }
 
 /* By a name that is not there yet. */

@@ -35,10 +35,21 @@ static int find_name(const viewer *v, char *pattern, char *name, size_t size)
     return -1;
 }
 
+/* Whether files of --pictures can have the picture's background; else a message is printed. */
+static int holds_opacity(const viewer *v)
+{
+    char error[PROGRAM_ERROR_SIZE];
+    const int transparent = view_draw_has(v->draw, "transparent");
+    const int failed = view_options_check_opacity(transparent, v->options.pictures, error, sizeof error);
+    if (failed)
+        program_error("%s", error);
+    return !failed;
+}
+
 void viewer_write_picture(viewer *v)
 {
     char pattern[4096], name[4096], error[PROGRAM_ERROR_SIZE];
-    if (!v->shown || v->scene_is_wrong)
+    if (!v->shown || v->scene_is_wrong || !holds_opacity(v))
         return;
     if (find_name(v, pattern, name, sizeof name)) {
         program_error("%s: there is no name left for a picture", v->options.pictures);
@@ -189,7 +200,7 @@ static char *settings_of_picture(viewer *v)
 
 void viewer_copy_command(viewer *v)
 {
-    char *const settings = settings_of_picture(v);
+    char *const settings = holds_opacity(v) ? settings_of_picture(v) : NULL;
     if (settings)
         copy(v, view_command(v->draw, settings, v->shown, v->options.pictures), "the command line of the picture is");
     free(settings);

@@ -121,9 +121,10 @@ static void draw_status(viewer *v, const view_frames_state *s)
             snprintf(state, sizeof state, "  %.0f pictures/s", 1e3 / v->frame_ms);
         if (v->movie.is_made)
             snprintf(state, sizeof state, "  movie: %llu frames", (unsigned long long)v->movie.frames);
+        const uint64_t end = s->count ? viewer_number(v, s->count - 1) + 1 : 0; /* of the file's numbers */
         char text[256];
         snprintf(text, sizeof text, "%s %llu of %llu%s%s%s   %sh: help", v->playing ? "playing" : "frame",
-                 (unsigned long long)f->number, (unsigned long long)s->count, s->is_final ? "" : "+", time, state,
+                 (unsigned long long)f->number, (unsigned long long)end, s->is_final ? "" : "+", time, state,
                  !v->is_new ? ""
                  : v->panel ? "drag: turn   click: ask   o: options   "
                             : "drag: turn   click: ask   ");

@@ -273,16 +273,8 @@ void viewer_hide(viewer *v, int kind, int only)
 /* Those that the command line hides stay hidden. */
 void viewer_show_all(viewer *v)
 {
-    if (!v->shown || viewer_unset(v, "show"))
-        return;
-    char *const shows = strdup(v->draw->shows);
-    for (char *line = shows; line && *line;) {
-        const size_t length = strcspn(line, "\n");
-        line[length] = '\0';
-        viewer_set(v, "show", line);
-        line += length + 1;
-    }
-    free(shows);
+    if (v->shown)
+        viewer_set_lines(v, "show", v->draw->shows);
 }
 
 void viewer_select_picks(viewer *v)
@@ -296,9 +288,9 @@ void viewer_select_picks(viewer *v)
     for (uint32_t i = 0; i < v->picks; i++)
         length += snprintf(formula + length, sizeof formula - (size_t)length, "%s%s == %u", i ? " or " : "",
                            v->shown->frame.id ? "id" : "index", v->pick[i].id);
-    viewer_select(v, formula);
     pthread_mutex_lock(&v->lock);
     free(v->formula);
     v->formula = strdup(formula);
     pthread_mutex_unlock(&v->lock);
+    viewer_select(v, formula); /* has the panel look for it */
 }

@@ -53,7 +53,7 @@ static int change(viewer *v, const char *name, const char *value, int is_set, ch
     }
     if (v->shown && v->wanted != v->shown->chosen && view_draw_has(v->draw, "trails")) { /* the reader moves them on */
         snprintf(why, size, "%s: a frame with trails is being read: try again", name);
-        return -1;
+        return 1;
     }
     if (check(v, cgt_figure_set_camera(figure, &v->camera), why, size))
         return -1;
@@ -89,20 +89,17 @@ static int set_lines(viewer *v, const cgt_figure_option *o, const char *lines, c
         snprintf(why, size, "%s: the option takes one value", o->name);
         return -1;
     }
-    if ((!lines[0] || o->repeats) && change(v, o->name, NULL, 0, why, size))
-        return -1;
-    for (const char *line = lines; *line;) {
+    int failed = !lines[0] || o->repeats ? change(v, o->name, NULL, 0, why, size) : 0;
+    for (const char *line = lines; *line && !failed;) {
         const size_t length = strcspn(line, "\n");
         char *const value = strndup(line, length);
         if (!value)
             snprintf(why, size, "out of memory for options");
-        const int failed = !value || change(v, o->name, length ? value : NULL, 1, why, size);
+        failed = value ? change(v, o->name, length ? value : NULL, 1, why, size) : -1;
         free(value);
-        if (failed)
-            return -1;
         line += length + (line[length] == '\n');
     }
-    return 0;
+    return failed;
 }
 
 /* Frames that are kept are of such an option: they are read anew. So they are where bonds are to be guessed, or sites
@@ -110,21 +107,18 @@ static int set_lines(viewer *v, const cgt_figure_option *o, const char *lines, c
 static int is_of_reading(const viewer *v, const char *name, const char *lines)
 {
     const cgt_trajectory_options *const r = &v->draw->options.reading;
-    static const char *const names[] = {"unwrap", "whole", "trails"};
-    int is_one = 0;
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        is_one |= strcmp(name, names[i]) == 0;
+    int is_one = cgt_figure_option_is_of_frames(name);
     is_one |= strcmp(name, "bonds") == 0 && *lines && !r->all_bonds;
     is_one |= strcmp(name, "show") == 0 && strstr(lines, "site") && r->leave_out_sites;
     return is_one;
 }
 
-/* Keeps what was there before, but of the steps of one movement of a slider only the first. Takes it over. */
-static void remember(viewer *v, uint32_t option, char *before, int continues)
+/* Keeps what was there before, but of the steps of one movement of a slider only the first. */
+void viewer_remember(viewer *v, view_change next, int continues)
 {
-    view_change *const last = v->change_count ? &v->change[v->change_count - 1] : NULL;
-    if (!before || (continues && last && last->option == option)) {
-        free(before);
+    const uint32_t count = v->change_count;
+    if (!next.before || (continues && count && v->change[count - 1].option == next.option)) {
+        free(next.before);
         return;
     }
     if (v->change_count == VIEW_CHANGES) {
@@ -132,7 +126,8 @@ static void remember(viewer *v, uint32_t option, char *before, int continues)
         memmove(v->change, v->change + 1, (VIEW_CHANGES - 1) * sizeof *v->change);
         v->change_count--;
     }
-    v->change[v->change_count++] = (view_change){option, before};
+    next.event = v->event;
+    v->change[v->change_count++] = next;
 }
 
 /* The picture has the window's size, which follows. */
@@ -168,32 +163,28 @@ int viewer_put(viewer *v, const char *name, const char *lines, view_put how, cha
         free(before);
         return ask_size(v, lines, why, size);
     }
-    if (v->shown && is_of_reading(v, name, lines)) {
-        if (viewer_read_by(v, name, lines)) {
-            pthread_mutex_lock(&v->lock);
-            snprintf(why, size, "%s", v->messages ? v->message[0].text : "");
-            pthread_mutex_unlock(&v->lock);
-            free(before);
-            return -1;
-        }
-    } else if (set_lines(v, &o, lines, why, size)) {
+    const int reads = v->shown && is_of_reading(v, name, lines);
+    const int failed = reads ? viewer_read_by(v, name, lines) : set_lines(v, &o, lines, why, size);
+    if (failed && reads) {
+        pthread_mutex_lock(&v->lock);
+        snprintf(why, size, "%s", v->messages ? v->message[0].text : "");
+        pthread_mutex_unlock(&v->lock);
+    } else if (failed && o.repeats) {
         char ignored[VIEW_SENTENCE];
-        if (o.repeats)
-            set_lines(v, &o, before, ignored, sizeof ignored);
-        free(before);
-        return -1;
+        set_lines(v, &o, before, ignored, sizeof ignored);
     }
-    if (how == VIEW_PUT_BACK)
+    if (failed || how == VIEW_PUT_BACK)
         free(before);
     else
-        remember(v, option, before, how == VIEW_PUT_ON);
+        viewer_remember(v, (view_change){.option = option, .before = before}, how == VIEW_PUT_ON);
+    if (failed)
+        return failed;
     view_draw_tell(v->draw, CGT_OK); /* what it notices */
     viewer_publish(v);
     return 0;
 }
 
-/* For keys, which say in the window why they are refused. */
-static int put_or_say(viewer *v, const char *name, const char *lines)
+int viewer_set_lines(viewer *v, const char *name, const char *lines)
 {
     char why[VIEW_SENTENCE];
     const int failed = !lines || viewer_put(v, name, lines, VIEW_PUT_NEW, why, sizeof why);
@@ -212,29 +203,45 @@ int viewer_set(viewer *v, const char *name, const char *value)
     char *const lines = before ? malloc(room) : NULL;
     if (lines)
         snprintf(lines, room, "%.*s%s\n", (int)kept, before, value ? value : "");
-    const int result = put_or_say(v, name, lines);
+    const int result = viewer_set_lines(v, name, lines);
     free(before);
     free(lines);
     return result;
 }
 
-int viewer_unset(viewer *v, const char *name) { return put_or_say(v, name, ""); }
+int viewer_unset(viewer *v, const char *name) { return viewer_set_lines(v, name, ""); }
+
+/* Returns as viewer_put. */
+static int put_back(viewer *v, const view_change *c)
+{
+    char why[VIEW_SENTENCE] = "";
+    cgt_figure_option o = {.name = "settings"};
+    const int failed = cgt_figure_get_option(c->option, &o)
+                           ? viewer_put(v, o.name, c->before, VIEW_PUT_BACK, why, sizeof why)
+                           : viewer_unload_settings(v, c);
+    if (!failed)
+        viewer_say(v, "%s: as before", o.name);
+    else if (why[0])
+        program_error("%s", why);
+    return failed;
+}
 
 void viewer_undo(viewer *v)
 {
-    char why[VIEW_SENTENCE];
-    cgt_figure_option o;
     if (!v->change_count) {
         viewer_say(v, "there is nothing to undo");
         return;
     }
-    view_change *const last = &v->change[--v->change_count];
-    if (cgt_figure_get_option(last->option, &o) &&
-        viewer_put(v, o.name, last->before, VIEW_PUT_BACK, why, sizeof why) == 0)
-        viewer_say(v, "%s: as before", o.name);
-    else
-        program_error("%s", why);
-    free(last->before);
+    const uint64_t event = v->change[v->change_count - 1].event;
+    int failed = 0;
+    while (failed <= 0 && v->draw && v->change_count && v->change[v->change_count - 1].event == event) {
+        view_change *const last = &v->change[v->change_count - 1];
+        failed = put_back(v, last);
+        if (failed <= 0) { /* else the next undo tries again */
+            free(last->before);
+            v->change_count--;
+        }
+    }
 }
 
 /* ---- For other threads -------------------------------------------------------------------------------------- */
