@@ -264,12 +264,12 @@ typedef enum cgt_structure {
  *   At the commit  with BVH, and with AUTO for incoherent rays, in place of a grid. LOOSE_GRID never has one.
  *   Beside a grid  of AUTO, at most once a commit: in cgt_scene_prepare; or in a call whose first line says that it may
  *                  build one, once such calls since the commit have brought 1/32 as many rays as there are primitives,
- *                  at the first of them if the grid has levels for crowded regions. cgt_trace_camera is such a call where
+ *                  at the first of them if the grid has levels for crowded regions. cgt_trace_camera is such a call if
  *                  the frame cannot go by tiles (masks, an extreme camera)
  *   Memory         BVH and builder take 70 to 100 bytes a sphere and 110 to 140 a triangle or a capsule (evenly spread
  *                  ones; see cgt_scene_statistics.bytes), until the scene is released
  *   Threads        the context's build it; others may trace the scene meanwhile
- *   Errors         OUT_OF_MEMORY, TOO_LARGE: the call may be repeated; what it has written of its results is undefined */
+ *   Errors         OUT_OF_MEMORY, TOO_LARGE: the call may be repeated; its results are undefined */
 
 /* The rays that a scene is mostly traced with. */
 typedef enum cgt_ray_kind {

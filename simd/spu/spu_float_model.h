@@ -211,8 +211,8 @@ static const uint32_t cgt_spu_model_frsqest_lines[64] = {
     0x5f7149, 0x5a4d33, 0x5a4d33, 0x55811f, 0x55811f, 0x51050f, 0x51050f, 0x4cc8fe, 0x4cc8fe, 0x48d0f0, 0x48d0f0,
     0x4510e4, 0x4510e4, 0x4180d7, 0x4180d7, 0x3e24cc, 0x3e24cc, 0x3af4c3, 0x3af4c3, 0x37e8ba, 0x37e8ba};
 
-/* The line of zero has the largest exponent: its estimate is 2^128 times the line's value. Where 1 / a is too small to be
- * represented, the exponent is 0. */
+/* The line of zero has the largest exponent: its estimate is 2^128 times the line's value. Where 1 / a is too small to
+ * be represented, the exponent is 0. */
 CGT_SPU_MODEL uint32_t cgt_spu_model_frest(uint32_t a)
 {
     const uint32_t exponent = a >> 23 & 255;

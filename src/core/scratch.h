@@ -13,8 +13,8 @@
 /* Of a block. At most there are, of points against a light: a batch of them, 136 KB (dispatch/frame_points.h); their
  * copies as single rays, 180 KB (kernel/light/light_bvh.c); and a stream of rays, 805 KB with 16 lanes
  * (kernel/stream/stream.h), with a packet and its hits, 34 KB. Of all hits, 480 KB for lists (trace/trace_all_rays.c),
- * the stream, and 50 KB for its rays; of points inside, 405 KB for lists and sums (trace/points_inside.c), the stream and
- * its rays. Of ambient occlusion, 467 KB for a tile's pixels and rays (trace/trace_ambient.c), and the stream. */
+ * the stream, and 50 KB for its rays; of points inside, 405 KB for lists and sums (trace/points_inside.c), the stream
+ * and its rays. Of ambient occlusion, 467 KB for a tile's pixels and rays (trace/trace_ambient.c), and the stream. */
 #ifndef CGT_SCRATCH_BYTES /* programs of an SPE have less */
 #define CGT_SCRATCH_BYTES ((size_t)1408 << 10)
 #endif

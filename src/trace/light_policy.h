@@ -15,11 +15,11 @@
 
 #include "dispatch/kernel.h"
 
-#define CGT_LIGHT_TREE_LEAST 0.8  /* of a point among many that share all */
-#define CGT_LIGHT_TREE_APART 3.5  /* more, where there are as many primitives as points */
-#define CGT_LIGHT_TREE_MOST 8.0   /* of a point that shares nothing */
-#define CGT_LIGHT_RAY_PRICE 40.0  /* a ray pays so much of a tree's price (builders/bvh/bvh_on_demand.h) */
-#define CGT_LIGHT_POINT_MOST 400u /* of a point by tiles: one ray at a time through the grid takes less */
+#define CGT_LIGHT_TREE_LEAST 0.8    /* of a point among many that share all */
+#define CGT_LIGHT_TREE_APART 3.5    /* more, where there are as many primitives as points */
+#define CGT_LIGHT_TREE_MOST 8.0     /* of a point that shares nothing */
+#define CGT_LIGHT_RAY_PRICE 40.0    /* a ray pays so much of a tree's price (builders/bvh/bvh_on_demand.h) */
+#define CGT_LIGHT_POINT_MOST 400u   /* of a point by tiles: one ray at a time through the grid takes less */
 #define CGT_LIGHT_SCATTERED_RAYS 4u /* that count for a point which tiles gave up */
 
 /* A call's points against a light. */

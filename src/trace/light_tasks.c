@@ -2,13 +2,13 @@
  * SPDX-License-Identifier: MIT
  *
  * See light_tasks.h. Tasks are neighbours in the frame or in the light's order, and the first ones tell what the others
- * take: so they come in steps of about the golden section, which shares no divisor with their number. In bands they come
- * one after another, since a task's scratch memory there goes by its running number. */
+ * take: so they come in steps of about the golden section, which shares no divisor with their number. In bands they
+ * come one after another, since a task's scratch memory there goes by its running number. */
 #include "trace/light_tasks.h"
 
 #include <math.h>
 
-#define GIVEN_UP 0xffu      /* the first result of a task that tiles gave up, until it is traced otherwise */
+#define GIVEN_UP 0xffu /* the first result of a task that tiles gave up, until it is traced otherwise */
 
 cgt_result cgt_check_light(cgt_context *c, const cgt_light *light)
 {

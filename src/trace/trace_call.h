@@ -39,7 +39,10 @@ cgt_result cgt_check_rays(cgt_context *c, const cgt_rays *rays);
 cgt_result cgt_check_points(cgt_context *c, const cgt_points *points);
 
 /* A single ray as an array of one, t_max where it ends. */
-static inline float cgt_end_of_ray(const cgt_single_ray *ray) { return cgt_is_zero(ray->t_max) ? INFINITY : ray->t_max; }
+static inline float cgt_end_of_ray(const cgt_single_ray *ray)
+{
+    return cgt_is_zero(ray->t_max) ? INFINITY : ray->t_max;
+}
 
 static inline cgt_rays cgt_array_of_ray(const cgt_single_ray *ray, const float *t_max)
 {

@@ -524,8 +524,8 @@ static uint64_t sum_outputs(int fill)
 {
     uint64_t sum = 0;
     unsigned char *const block[] = {(void *)plane,   (void *)hit,         (void *)visibility, (void *)ids,
-                                          occluded,        (void *)bounced,     (void *)surface,    (void *)pixel,
-                                          (void *)&single, (void *)surface_hit, (void *)hit_counts};
+                                    occluded,        (void *)bounced,     (void *)surface,    (void *)pixel,
+                                    (void *)&single, (void *)surface_hit, (void *)hit_counts};
     const size_t bytes[] = {sizeof plane,    sizeof hit,         sizeof visibility, sizeof ids,
                             sizeof occluded, sizeof bounced,     sizeof surface,    sizeof pixel,
                             sizeof single,   sizeof surface_hit, sizeof hit_counts};

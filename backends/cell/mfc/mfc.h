@@ -123,7 +123,7 @@ typedef struct cgt_mfc_counts {
     uint64_t bytes_in, bytes_out;                                   /* moved */
     uint64_t lost_lines;                                            /* putllc that failed */
     uint64_t queue_stalls; /* commands that found the queue full; atomic ones have none, and wait for the one before */
-    uint64_t wait_cycles; /* in which the program waited for a channel; counted by who runs it */
+    uint64_t wait_cycles;  /* in which the program waited for a channel; counted by who runs it */
 } cgt_mfc_counts;
 
 /* ---- an MFC ---- */

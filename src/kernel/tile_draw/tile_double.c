@@ -4,8 +4,8 @@
  * A sphere or a triangle against the pixels of a tile in double precision, pixel by pixel, where the bounds of
  * tile_spheres.h and tile_triangles.h do not hold: primitives around the eye or behind it, primitives that the range's
  * begin may cut, and those so large that single precision is coarser than the tile's depth error. The arithmetic is
- * that of sphere_double.h and triangle_double.h, so a certain result is what decide.h would find; the rest is queued. So
- * are spheres whose t is next to an end of the range, since the short formula may round it to the other side. */
+ * that of sphere_double.h and triangle_double.h, so a certain result is what decide.h would find; the rest is queued.
+ * So are spheres whose t is next to an end of the range: the short formula may round it to the other side. */
 #include "exact/sphere_double.h"
 #include "exact/triangle_pair.h"
 #include "kernel/tile_draw/tile_queue.h"

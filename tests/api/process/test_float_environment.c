@@ -339,8 +339,8 @@ TEST(denormal_arguments_are_not_zero)
         const cgt_result open = cgt_ambient_occlusion(scene, &camera, &frame, &ambient, visibility, NULL);
         leave(&before);
         if (all || lit || drawn || open || count || occluded != 1 || visibility[0] != 1)
-            fail_msg("%s: %d %d %d %d, %u hits, occluded %u, sees %g", environments[k].name, (int)all, (int)lit, (int)drawn,
-                     (int)open, count, occluded, (double)visibility[0]);
+            fail_msg("%s: %d %d %d %d, %u hits, occluded %u, sees %g", environments[k].name, (int)all, (int)lit,
+                     (int)drawn, (int)open, count, occluded, (double)visibility[0]);
     }
     cgt_scene_release(scene);
     cgt_context_release(context);

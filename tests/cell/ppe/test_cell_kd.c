@@ -347,7 +347,8 @@ TEST(masks_are_refused)
     static uint32_t ids[4 * 4];
     const cgt_kd_frame_output output = {.ids = ids};
     const cgt_kd_frame_options o = {.cell = {.spes = 1, .function = kd_library_program(CGT_STRUCTURE_KD)}};
-    const cgt_memory_hooks hooks = {.allocate = fail_later, .release = count_free, .user = &(failing_memory){.left = 99}};
+    const cgt_memory_hooks hooks = {
+        .allocate = fail_later, .release = count_free, .user = &(failing_memory){.left = 99}};
     cgt_camera camera;
     cgt_kd_scene image;
     cgt_triangles t;
