@@ -17,10 +17,10 @@ class Libcgt(ConanFile):
     license = "MIT"
     description = "Ray casting of scenes in which every primitive moves every frame"
     topics = ("ray-tracing", "simulation", "particles")
-    package_type = "library"
+    package_type = "unknown"  # both kinds are in it: cgt::static, cgt::shared, or BUILD_SHARED_LIBS choose
     settings = "os", "arch", "compiler", "build_type"
-    options = {"shared": [True, False], "fPIC": [True, False]}
-    default_options = {"shared": False, "fPIC": True}
+    options = {"fPIC": [True, False]}
+    default_options = {"fPIC": True}
 
     @property
     def _top(self):

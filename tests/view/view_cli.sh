@@ -116,12 +116,12 @@ if "$program" --help | grep -q 'o opens a panel'; then
     view 0 -s 700x400 --style plain -a 1 "$data/caffeine.xyz" <<'END'
 settle
 key o
-wait 0.2
+settle
 text radius-sc
 key Return
 text 0.4
 key Return
-wait 0.1
+settle
 key Escape
 settle
 key s
@@ -140,7 +140,7 @@ key Return
 key Ctrl+A
 text 300x200
 key Return
-wait 0.3
+settle
 key Escape
 key s
 settle

@@ -90,8 +90,10 @@ TEST(a_root_has_one_t)
 TEST(behind_the_origin_by_nothing)
 {
     static const float point[1][4] = {{0, 0, 0, 0}}, corner[9] = {0, 0, 0, 0.9f, 0, 0, 0, 0.9f, 0};
-    static const cgt_single_ray rays[] = {{.org = {1e-28f, 0, 0}, .dir = {0x1p59f, 0, 0}},
-                                          {.org = {0.25f, 0.25f, 1e-28f}, .dir = {0, 0, 0x1p59f}}};
+    static const cgt_single_ray rays[2][2] = {
+        {{.org = {1e-28f, 0, 0}, .dir = {0x1p59f, 0, 0}}, {.org = {-1e-28f, 0, 0}, .dir = {-0x1p59f, 0, 0}}},
+        {{.org = {0.25f, 0.25f, 1e-28f}, .dir = {0, 0, 0x1p59f}},
+         {.org = {0.25f, 0.25f, -1e-28f}, .dir = {0, 0, -0x1p59f}}}};
     const cgt_triangles triangle = {.count = 1, .vertex_count = 3, .vertices = cgt_floats(corner, 0)};
     cgt_context *context = context_make(1, NULL);
     for (size_t k = 0; k < TEST_COUNT(structures); k++)
@@ -104,7 +106,8 @@ TEST(behind_the_origin_by_nothing)
                 assert_int_equal(cgt_scene_set_triangles(scene, NULL, &triangle), CGT_OK);
                 assert_int_equal(cgt_scene_commit(scene), CGT_OK);
             }
-            assert_true(t_of(scene, &rays[kind], NULL) == 0);
+            for (int way = 0; way < 2; way++)
+                assert_true(t_of(scene, &rays[kind][way], NULL) == 0);
             cgt_scene_release(scene);
         }
     cgt_context_release(context);
