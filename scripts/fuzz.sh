@@ -52,7 +52,8 @@ for target in "${targets[@]}"; do
     [ ! -f "$account" ] || read -r spent of runs <"$account"
     [ "$of" = "$revision" ] && [ "$spent" -lt "$seconds" ] || spent=0 runs=0
     for finding in "$build/findings/$target"-*; do
-        if [ -e "$finding" ] && ! $build/fuzz/fuzzer_"$target" "$finding" >"$build/$target.log" 2>&1; then
+        if [ -e "$finding" ] && ! $build/fuzz/fuzzer_"$target" -timeout=20 -rss_limit_mb=2048 "$finding" \
+            >"$build/$target.log" 2>&1; then
             tail -n 60 "$build/$target.log"
             echo "$target: $finding fails"
             status=1

@@ -86,7 +86,7 @@ done
 # and those that are no more: tests read whole folders
 (cd "$tree" && find . -type f | sed 's#^\./##' | sort) >"$dir/files_there"
 git ls-files --cached --others --exclude-standard | sort | comm -13 - "$dir/files_there" |
-    (cd "$tree" && xargs -r -d '\n' rm)
+    (cd "$tree" && xargs -r -d '\n' rm && find . -mindepth 1 -type d -empty -delete)
 generator=()
 ! command -v ninja >/dev/null || generator=(-G Ninja)
 cmake "${generator[@]}" -S "$tree" -B "$dir/build" -DCMAKE_BUILD_TYPE=Release "-DCGT_ONLY_VARIANTS=$variant" \

@@ -26,7 +26,6 @@ targets=(scene hits cliffs cell cell_kd spe trajectory formats mesh)
 parts=("${suites[@]/#/suite-}" cpu-avx512 "cpu-avx512,avx2" cpus-4 cpus-64 bugs "${targets[@]/#/fuzz-}" soak)
 
 [ -z "$(git status --porcelain)" ] || { echo "night.sh: commit first: a night is of a revision" >&2; exit 2; }
-head=$(git rev-parse HEAD)
 revision=$(git log -1 --format=%H -- . ":!$table") # the row of a night is no other revision
 mkdir -p $night
 touch $account
@@ -37,7 +36,9 @@ code=$(scripts/code_hash.sh)
 files_of() { [[ $1 = suite-* ]] && echo "$tree" || echo "$code"; }
 
 # Files that change meanwhile would be accounted as those of the begin.
-is_as_begun() { [ -z "$(git status --porcelain)" ] && [ "$(git rev-parse HEAD)" = "$head" ]; }
+is_as_begun() {
+    [ -z "$(git status --porcelain -- . ":!$table")" ] && [ "$(git log -1 --format=%H -- . ":!$table")" = "$revision" ]
+}
 
 # The account of these files: this machine's, and that of the table's rows.
 lines() { awk -F '\t' -v tree="$tree" -v code="$code" '$5 == (/^suite-/ ? tree : code)' $account; }

@@ -60,6 +60,7 @@ if [ $tests = yes ]; then
     [ "$(id -u)" = 0 ] || root=(sudo)
     "${root[@]}" autopkgtest --no-built-binaries --output-dir "$top/autopkgtest" "$top"/first/*.deb "$top/first/libcgt-$version" -- null \
         >"$top/autopkgtest.log" 2>&1 || status=$?
+    [ ${#root[@]} = 0 ] || sudo chown -R "$(id -u):$(id -g)" "$top/autopkgtest"
     for package in "$top"/first/*.deb; do
         dpkg-query -W -f '${Package} ${db:Status-Status}\n' "$(dpkg-deb -f "$package" Package)" 2>/dev/null || true
     done | awk '$2 == "installed" { print $1 }' | xargs -r "${root[@]}" dpkg --purge >>"$top/autopkgtest.log" 2>&1

@@ -63,5 +63,5 @@ case $version in 0.*) soname=${version%.*} ;; *) soname=${version%%.*} ;; esac
 [ -e "tests/repository/abi/$soname.abi" ] || lacks "its binary interface is not described: scripts/abi.sh --write"
 grep -q "^libcgt $version\b" <(head -n 1 NEWS) || lacks "NEWS begins with another version: $(head -n 1 NEWS)"
 head -n 1 packaging/debian/changelog | grep -qF "($version-" || lacks "packaging/debian/changelog is of another version"
-grep -qF "\"$version\"" packaging/vcpkg/*/vcpkg.json || lacks "vcpkg.json is of another version"
+grep -qF "\"$version\"" packaging/vcpkg/vcpkg.json || lacks "vcpkg.json is of another version"
 [ $missing -gt 0 ] || echo "release.sh: $version can be released"

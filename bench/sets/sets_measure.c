@@ -137,9 +137,9 @@ typedef struct set_turn {
 static int add_bvh(const sets_job *job, bench_tracer *t, sets_row *row)
 {
     cgt_scene_statistics now;
-    if (t->way->embree || row->has_bvh || t->built_by->built.structure != CGT_STRUCTURE_LOOSE_GRID)
+    if (t->way->embree || t->built_by != t || row->has_bvh || t->built.structure != CGT_STRUCTURE_LOOSE_GRID)
         return PROGRAM_OK;
-    if (cgt_scene_get_statistics(t->built_by->scene, &now) != CGT_OK)
+    if (cgt_scene_get_statistics(t->scene, &now) != CGT_OK)
         return PROGRAM_FAILED;
     row->has_bvh = now.bvh_build_ms > 0;
     for (uint32_t round = 0; row->has_bvh && round < job->settings->repeat; round++)

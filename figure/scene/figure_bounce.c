@@ -135,14 +135,15 @@ static cgt_result set_spheres(cgt_figure *figure)
     return result;
 }
 
-/* Bodies of a mesh of glass: found again where its corners change, not where its vertices move. */
+/* Bodies of a mesh of glass: found again where its corners change, not where its vertices move; in every frame where no
+ * triangles share a vertex, since then places alone join them. */
 static int find_bodies(cgt_figure *figure)
 {
     figure_bounce *b = figure->bounce;
     const cgt_trajectory_frame *f = figure->frame;
     const size_t corners = 3 * (size_t)f->triangles;
     uint32_t bodies, wrong[3];
-    if (!corners || (b->body && b->bodies_of == f->triangles &&
+    if (!corners || (b->body && b->bodies_of == f->triangles && f->count < corners &&
                      memcmp(b->body + f->triangles, f->index, corners * sizeof *f->index) == 0))
         return 0;
     free(b->body);

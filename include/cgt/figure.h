@@ -287,8 +287,8 @@ typedef struct cgt_figure_hit {
 CGT_API cgt_result cgt_figure_pick(cgt_figure *figure, uint32_t x, uint32_t y, cgt_figure_hit *hit);
 
 /* Copies what is known of a particle or triangle of the shown frame, in lines: number, id, type, element; of particles
- * place, radius, each column, the speed. Frames that are not kept have neither ids nor columns. Returns the length of
- * the whole text; 0: there is none. */
+ * place, radius, each column, the speed. Frames that are not kept have neither ids, types, elements nor columns.
+ * Returns the length of the whole text; 0: there is none. */
 CGT_API size_t cgt_figure_describe(const cgt_figure *figure, uint32_t element, char *text, size_t size);
 
 #ifdef __cplusplus

@@ -14,6 +14,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "system/process.h"
 #include "system/system.h"
 
 static const char *own_name = "cgt";
@@ -28,6 +29,7 @@ static void *progress_user;
 
 void program_init(const char *name)
 {
+    process_watch_children();
     own_name = name;
     system_begin();
 }

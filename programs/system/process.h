@@ -20,6 +20,9 @@ void process_catch_ends(void (*on_end)(int number, int at_once));
 /* A pipe that its reader has closed becomes an error of the call that writes. */
 void process_ignore_closed_pipes(void);
 
+/* Lets this program learn how its children end, which nobody does where it has inherited that SIGCHLD is ignored. */
+void process_watch_children(void);
+
 /* Ends this program as the signal does where nothing handles it. */
 void process_end_by(int number);
 

@@ -44,6 +44,8 @@ void process_catch_ends(void (*on_end)(int number, int at_once))
 
 void process_ignore_closed_pipes(void) { signal(SIGPIPE, SIG_IGN); }
 
+void process_watch_children(void) { signal(SIGCHLD, SIG_DFL); }
+
 void process_end_by(int number)
 {
     signal(number, SIG_DFL);
@@ -109,7 +111,6 @@ int process_start(process_child *child, const char *const *argv, FILE *messages)
     if (pipe(ends_of_pipe))
         return errno;
     const int input = ends_of_pipe[0], output = ends_of_pipe[1];
-    signal(SIGCHLD, SIG_DFL); /* where it is ignored, as this program may inherit, nobody learns how a child ended */
     fcntl(input, F_SETFD, FD_CLOEXEC);
     fcntl(output, F_SETFD, FD_CLOEXEC);
     fcntl(fileno(messages), F_SETFD, FD_CLOEXEC); /* adddup2 gives the program a copy */

@@ -35,6 +35,8 @@ void process_catch_ends(void (*on_end)(int number, int at_once))
 
 void process_ignore_closed_pipes(void) {}
 
+void process_watch_children(void) {}
+
 void process_end_by(int number) { _exit(128 + number); }
 
 void process_hold_signals(process_signals *before) { (void)before; }

@@ -449,7 +449,9 @@
             load: (m) => { // a settings file
                 const path = '/' + m.name.replace(/[/\0]/g, '_');
                 let before = values(null);
-                if (isOpen && /^\s*camera\s*=/m.test(before + m.text)) // Undo brings back the hand's
+                // Undo brings back the hand's, where no option of it chooses the view
+                if (isOpen && /^\s*camera\s*=/m.test(before + m.text) &&
+                    !/^(view|up|fov|zoom|camera-keys)\b/m.test(before))
                     before = before.replace(/^camera = .*\n/m, '') +
                         `camera = ${cgt.UTF8ToString(cgt._web_camera())}\n`;
                 cgt.FS.writeFile(path, m.text);

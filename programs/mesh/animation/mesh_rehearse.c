@@ -59,7 +59,7 @@ int mesh_rehearse(cgt_trajectory *t)
         waited = waitpid(child, &status, 0);
     } while (waited < 0 && errno == EINTR);
     if (waited < 0)
-        return 1; /* another part of the program collects child processes: the outcome is unknown */
+        return 1; /* the program that reads ignores or collects its child processes: the outcome is unknown */
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
         return trajectory_fail(t, 0, "assimp did not come back from this file within %u s", seconds_for(t->file_size));
     if (WIFSIGNALED(status))

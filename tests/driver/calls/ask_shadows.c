@@ -92,7 +92,6 @@ static uint8_t shadow_of_frame[DRIVER_LIGHTS * DRIVER_PIXELS];
 static void check_shadows(driver_run *run, driver_view *w, const cgt_frame *frame)
 {
     memset(shadow_of_frame, 9, (size_t)DRIVER_LIGHTS * w->pixels);
-    memset(shadow_of_frame, 0x5a, sizeof shadow_of_frame); /* not the answers of the setup before */
     if (!driver_succeeds(run,
                          cgt_occluded_frame(run->setup.scene, &w->camera, frame, w->light, DRIVER_LIGHTS, &w->shadows,
                                             shadow_of_frame, NULL),
