@@ -27,6 +27,15 @@ CGT_SPU_INLINE vmask filter_second_root(vmask inside, vfloat t_min, vfloat end, 
     return second;
 }
 
+/* Whether a ray that hits one of two primitives hits the other at the same t, whichever it is. Capsules with exchanged ends
+ * are one surface, but their t may round to neighbouring floats, which an end of the range tells apart; not 0, since the
+ * sign is right. */
+CGT_SPU_INLINE bool filter_are_copies(const cgt_primitive *a, const cgt_primitive *b, float t_min, float t_max)
+{
+    return cgt_same_surface(a, b) && (a->kind != CGT_KIND_CAPSULES || (t_min == 0 && t_max == INFINITY) ||
+                                      !memcmp(&a->capsule, &b->capsule, sizeof a->capsule));
+}
+
 /* Decides whether the ray hits `prim` before its closest hit so far (CGT_INVALID_ID: none yet), and where. */
 CGT_SPU_INLINE bool filter_is_closer(const cgt_primitives *prims, const cgt_ray *ray, uint32_t best_prim, uint32_t prim,
                                      double *t, cgt_counts *counts)
@@ -35,7 +44,7 @@ CGT_SPU_INLINE bool filter_is_closer(const cgt_primitives *prims, const cgt_ray 
     cgt_decided_hit hit = {.primitive = cgt_primitives_get(prims, prim)}, best;
     if (best_prim != CGT_INVALID_ID) {
         best.primitive = cgt_primitives_get(prims, best_prim);
-        if (prim > best_prim && cgt_same_surface(&hit.primitive, &best.primitive))
+        if (prim > best_prim && filter_are_copies(&hit.primitive, &best.primitive, ray->t_min, ray->t_max))
             return false; /* of copies the first one */
     }
     if (hit.primitive.kind == CGT_KIND_TRIANGLES && cgt_triangle_is_parallel(ray->line.dir, &hit.primitive.triangle))

@@ -5,11 +5,11 @@
  * (tile_decide_spheres.c), and triangles by runs of one pair of them (tile_decide_triangles.c). */
 #include "kernel/tile_draw/tile_queue.h"
 
-/* Whether two primitives are one surface: then both are hit at the same t, and the lower number wins. */
-CGT_SPU_INLINE bool tile_same_surface(const cgt_primitives *prims, uint32_t a, uint32_t b)
+/* Of copies the lower number wins. */
+CGT_SPU_INLINE bool tile_are_copies(const cgt_primitives *prims, const tile *t, uint32_t a, uint32_t b)
 {
     const cgt_primitive p = cgt_primitives_get(prims, a), q = cgt_primitives_get(prims, b);
-    return cgt_same_surface(&p, &q);
+    return filter_are_copies(&p, &q, t->rays->t_min, t->rays->t_max);
 }
 
 void CGT_KERNEL(cgt_tile_decide)(const cgt_primitives *prims, tile *t, uint32_t i, uint32_t prim, cgt_counts *counts)
@@ -18,7 +18,7 @@ void CGT_KERNEL(cgt_tile_decide)(const cgt_primitives *prims, tile *t, uint32_t 
     double hit_t;
     if (closest == prim || t->z[i] == -INFINITY)
         return;
-    if (closest != CGT_INVALID_ID && tile_same_surface(prims, prim, closest)) {
+    if (closest != CGT_INVALID_ID && tile_are_copies(prims, t, prim, closest)) {
         tile_set_closest(t, i, prim < closest ? prim : closest);
         return;
     }

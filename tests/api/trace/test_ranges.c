@@ -113,4 +113,29 @@ TEST(behind_the_origin_by_nothing)
     cgt_context_release(context);
 }
 
+/* Capsules with exchanged ends are one surface, but the t of the first one rounds to before the range. */
+TEST(exchanged_ends_at_the_range)
+{
+    static const float end[2][3] = {{-1, 0, 0.25f}, {107, 0, 81.25f}};
+    static const uint32_t index[4] = {0, 1, 1, 0};
+    const cgt_capsules capsules = {.count = 2,
+                                   .indices = cgt_uint32s(index, 0),
+                                   .vertices = cgt_floats(end[0], 0),
+                                   .vertex_count = 2,
+                                   .radius = 0x1p-23f};
+    const cgt_camera camera = {.eye = {0, 0, 0x1p-48f}, .target = {0, 0, 1}, .up = {0, 1, 0}};
+    const cgt_single_ray ray = {.org = {0, 0, 0x1p-48f}, .dir = {0, 0, 1}, .t_min = 0x1.fffffcp-1f};
+    cgt_context *context = context_make(1, NULL);
+    for (size_t k = 0; k < TEST_COUNT(structures); k++) {
+        const cgt_scene_options options = {.structure = structures[k]};
+        cgt_scene *scene;
+        assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
+        assert_int_equal(cgt_scene_set_capsules(scene, NULL, &capsules), CGT_OK);
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+        assert_true(t_of(scene, &ray, &camera) == ray.t_min);
+        cgt_scene_release(scene);
+    }
+    cgt_context_release(context);
+}
+
 SEEDED_SUITE("test_ranges", NULL, NULL)
