@@ -54,6 +54,8 @@ TEST(speeds_follow_ids)
     const uint32_t first_id[] = {7, 4000000000u, 2}, then_id[] = {2, 7, 11, 4000000000u};
     speed_case s = {cgt_speed_create(context), NULL, SPEED_FROM_VELOCITY};
     assert_non_null(s.tracker);
+    take(&s, 90, 0, first, first_id, 0.0f);
+    assert_non_null(s.speeds); /* a run may begin without spheres */
     take(&s, 100, 3, first, first_id, 0.0f);
     assert_true(isnan(s.speeds[0]) && isnan(s.speeds[1]) && isnan(s.speeds[2]));
     take(&s, 110, 4, then, then_id, 0.0f);
