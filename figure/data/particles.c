@@ -160,7 +160,7 @@ int cgt_particles_select(particles *p, const particle_rules *r, const cgt_trajec
 int cgt_particles_sort(particles *p)
 {
     uint32_t at[PARTICLE_LAYERS] = {0};
-    particles to = {.count = p->count};
+    particles to = {.count = 0};
     at[0] = p->layer ? 0 : p->count;
     for (uint32_t i = 0; i < p->count && p->layer; i++)
         at[p->layer[i]]++;
@@ -182,6 +182,7 @@ int cgt_particles_sort(particles *p)
         to.source[k] = p->source[i];
         to.layer[k] = p->layer[i];
     }
+    to.count = p->count;
     memcpy(to.begin, p->begin, sizeof to.begin);
     cgt_particles_free(p);
     *p = to;

@@ -108,6 +108,7 @@ TEST(layers_are_sorted)
         assert_int_equal(cgt_particles_sort(&p), 0);
         static const uint32_t of_layer[4] = {1, 3, 0, 2}; /* types */
         assert_int_equal(p.begin[PARTICLE_LAYERS], 2 * COUNT);
+        assert_int_equal(p.count, 2 * COUNT);
         for (uint32_t k = 0; k < PARTICLE_LAYERS; k++) {
             assert_int_equal(p.begin[k + 1] - p.begin[k], k < 4 && of_layer[k] ? 2 * COUNT / 3 : 0);
             for (uint32_t i = p.begin[k]; i < p.begin[k + 1]; i++) {
