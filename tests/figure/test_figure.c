@@ -881,6 +881,14 @@ TEST(texts_change_over_what_is_shown)
         if (memcmp(then, expected, sizeof then) != 0)
             fail_msg("%s: another picture than that of a figure which had it from the start", options[i][0]);
     }
+    cgt_figure_unset(figure, "label-text");
+    cgt_figure_unset(figure, "label"); /* which goes */
+    draw_shown(figure, then);
+    cgt_figure_get(figure, NULL, settings, sizeof settings);
+    assert_int_equal(cgt_figure_unset(fresh, NULL), CGT_OK);
+    assert_int_equal(cgt_figure_set_lines(fresh, settings), CGT_OK);
+    draw(fresh, &data, expected);
+    assert_memory_equal(then, expected, sizeof then);
     cgt_figure_release(figure);
     cgt_figure_release(fresh);
     cgt_figure_frame_release(frame);
