@@ -189,7 +189,7 @@ int cgt_figure_choose_colors(cgt_figure *figure)
                                                     : o->by;
     if (by == COLORING_CATEGORY && check_categories(figure))
         return -1;
-    const int axis = o->up[0] != 0.0f ? 0 : o->up[1] != 0.0f ? 1 : 2;
+    const int axis = o->vertical ? o->vertical - 1 : 2;
     double min = o->range_min, max = o->range_max;
     if (!o->has_range)
         cgt_coloring_choose_range(&figure->survey, by, axis, o->logarithmic, figure->origin, &min, &max);

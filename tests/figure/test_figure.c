@@ -1011,10 +1011,11 @@ TEST(what_was_chosen_makes_the_picture)
 /* So it does where the view says which axis is height, and where the scale is logarithmic, or could not be. */
 TEST(what_was_chosen_is_accepted)
 {
-    static const char *const settings[] = {"view = top\ncolor = height\n", "color = id\nlog-scale\n",
-                                           "color = height\nlog-scale\n", "color = red\nlog-scale\n"};
-    static const char *const chosen[] = {"\ncolor = y\n", "\ncolor = id\nrange = 1,49\nlog-scale\n",
-                                         "\ncolor = height\nrange = ", "\ncolor = ff0000\n"};
+    static const char *const settings[] = {"up = x\nview = top\ncolor = height\n", "color = id\nlog-scale\n",
+                                           "color = height\nlog-scale\n", "color = red\nlog-scale\n",
+                                           "view = top\ncolor = height\n"};
+    static const char *const chosen[] = {"\ncolor = x\n", "\ncolor = id\nrange = 1,49\nlog-scale\n",
+                                         "\ncolor = height\nrange = ", "\ncolor = ff0000\n", "\ncolor = height\n"};
     const cgt_figure_data data = grains();
     uint8_t first[BYTES], again[BYTES];
     char text[1000];
