@@ -180,7 +180,8 @@ static int check_categories(cgt_figure *figure)
     return c->failed ? cgt_figure_fail(figure, "out of memory for the categories") : 0;
 }
 
-int cgt_figure_choose_colors(cgt_figure *figure)
+/* Chooses all but what is told of kinds. */
+static int set_colors(cgt_figure *figure)
 {
     const figure_options *o = &figure->options;
     const int is_words = may_have_words(o) && figure->categories.has_words;
@@ -226,6 +227,19 @@ int cgt_figure_choose_colors(cgt_figure *figure)
     return 0;
 }
 
+int cgt_figure_choose_colors(cgt_figure *figure)
+{
+    const survey *const s = &figure->survey;
+    const coloring_by by = figure->options.by;
+    if (set_colors(figure))
+        return -1;
+    if (figure->has_survey && s->drawable &&
+        ((by == COLORING_ELEMENT && !s->has_element) || (by == COLORING_TYPE && !s->has_type)))
+        cgt_notices_add(&figure->notices, "--color: the data have no %s: all have one colour",
+                        by == COLORING_TYPE ? "types" : "chemical elements");
+    return 0;
+}
+
 /* Nothing is told twice. */
 int cgt_figure_keep_colors(cgt_figure *figure, const figure_found *was)
 {
@@ -237,7 +251,7 @@ int cgt_figure_keep_colors(cgt_figure *figure, const figure_found *was)
     o->has_range = 1;
     o->range_min = was->min;
     o->range_max = was->max;
-    const int failed = cgt_figure_choose_colors(figure);
+    const int failed = set_colors(figure);
     o->by = by;
     o->has_range = has_range;
     o->range_min = range[0];
