@@ -49,10 +49,9 @@ void cgt_particles_free(particles *p)
     memset(p, 0, sizeof *p);
 }
 
-/* The radius of a sphere by the rules; the last of several that fit counts. */
-static float radius_of(const particle_rules *r, const cgt_trajectory_frame *f, uint32_t i)
+/* The radius of a sphere by the rules for kinds, else `radius`; the last of several that fit counts. */
+static float radius_of(const particle_rules *r, const cgt_trajectory_frame *f, uint32_t i, float radius)
 {
-    float radius = f->xyzr[4 * (size_t)i + 3];
     for (uint32_t k = 0; k < r->radius_count; k++) {
         const particle_kind *kind = &r->radii[k];
         const int fits =
@@ -71,7 +70,8 @@ void cgt_particle_radii(const particle_rules *r, const cgt_trajectory_frame *f, 
     for (uint32_t k = 0; k < count && (r->radius || r->radius_count); k++) {
         if (r->radius && k % BLOCK == 0)
             cgt_expression_values(r->radius, first + k, count - k < BLOCK ? count - k : BLOCK, values);
-        radius[k] = r->radius_scale * (r->radius ? (float)values[k % BLOCK] : radius_of(r, f, first + k));
+        const float own = r->radius ? (float)values[k % BLOCK] : f->xyzr[4 * (size_t)(first + k) + 3];
+        radius[k] = r->radius_scale * radius_of(r, f, first + k, own);
     }
 }
 

@@ -73,9 +73,14 @@ TEST(rules_choose_and_size)
     }
     assert_int_equal(p.count, k);
     rules.show = NULL;
-    rules.radius = radius; /* negative ones are left out */
+    rules.radius = radius; /* negative ones are left out, but not of a type that has one of its own */
     assert_int_equal(cgt_particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
-    assert_true(p.count > 200 && p.count < COUNT);
+    for (k = 0; k < p.count; k++)
+        assert_true(type[p.source[k]] != 3 || p.xyzr[4 * k + 3] == 0.5f);
+    const uint32_t with_types = p.count;
+    rules.radius_count = 0;
+    assert_int_equal(cgt_particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
+    assert_true(p.count > 200 && p.count < with_types && with_types < COUNT);
     for (k = 0; k < p.count; k++)
         assert_true(fabsf(p.xyzr[4 * k + 3] - 2.0f * (p.xyzr[4 * k + 1] - 1.0f)) < 1e-5f);
     rules = no_rules();
