@@ -54,9 +54,10 @@ cgt_picture_options cgt_figure_get_settings(const cgt_figure *figure)
     s.lighting.head = o->head;
     s.style.transparent = o->transparent;
     s.style.cue = o->cue;
-    s.style.cue_range[0] =
-        fmaxf(0.0f, cgt_style_distance(&figure->path.start) - 0.6f * cgt_style_shown_height(&figure->path.start));
-    s.style.cue_range[1] = cgt_style_distance(&figure->path.start) + 0.6f * cgt_style_shown_height(&figure->path.start);
+    const cgt_camera *const camera = figure->options.keys.count ? &figure->camera : &figure->path.start;
+    const float middle = cgt_style_distance(camera), reach = 0.6f * cgt_style_shown_height(camera);
+    s.style.cue_range[0] = fmaxf(0.0f, middle - reach);
+    s.style.cue_range[1] = middle + reach;
     s.style.outline = o->outline;
     for (int c = 0; c < 3; c++) {
         s.style.background[c] = cgt_srgb_decode(o->background[c]);
@@ -346,8 +347,14 @@ cgt_result cgt_figure_trace(cgt_figure *figure, const cgt_trace_options *options
 {
     cgt_look looks[FIGURE_LOOKS];
     const uint32_t count = cgt_figure_begin_picture(figure, looks);
-    const cgt_result result =
-        cgt_picture_draw(figure->drawing, figure->scene, &figure->camera, looks, count, &figure->image, options);
+    cgt_result result = CGT_OK;
+    if (figure->options.keys.count && figure->options.picture.cue > 0.0f) { /* depths of this frame's camera */
+        const cgt_picture_options settings = cgt_figure_get_settings(figure);
+        result = cgt_picture_set_options(figure->drawing, &settings);
+    }
+    if (result == CGT_OK)
+        result =
+            cgt_picture_draw(figure->drawing, figure->scene, &figure->camera, looks, count, &figure->image, options);
     if (result == CGT_OK)
         cgt_figure_draw_overlay(figure);
     return result;

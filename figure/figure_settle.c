@@ -61,6 +61,15 @@ unwrap_mode cgt_figure_unwraps(const figure_options *o)
     return o->whole ? UNWRAP_WHOLE : o->unwrap ? UNWRAP_IMAGES : UNWRAP_NOT;
 }
 
+/* Of the colours, or of what is drawn. */
+static int formulas_use_speed(const frame_sequence *s)
+{
+    int uses = 0;
+    for (uint32_t i = 0; i < s->formula_count; i++)
+        uses |= cgt_expression_uses(s->formulas[i], "speed");
+    return uses;
+}
+
 int cgt_figure_open(cgt_figure *figure)
 {
     const figure_options *o = &figure->options;
@@ -71,21 +80,19 @@ int cgt_figure_open(cgt_figure *figure)
     if ((o->by == COLORING_VALUE || o->by == COLORING_CATEGORY) &&
         !(figure->formula = cgt_expression_parse(o->formula, figure->message, sizeof figure->message)))
         return -1;
-    if (o->by == COLORING_AUTO || o->by == COLORING_SPEED ||
-        (figure->formula && cgt_expression_uses(figure->formula, "speed"))) {
-        sequence->tracker = cgt_speed_create(figure->context);
-        if (!sequence->tracker)
-            return cgt_figure_fail(figure, "out of memory");
-    }
     cgt_frame_atoms_set(&sequence->atoms, o->particles.types, o->particles.type_count,
                         cgt_figure_options_need_bonds(o));
     sequence->wants_kinds = cgt_figure_wants_kinds(o);
     figure->categories.takes_numbers = o->by == COLORING_CATEGORY;
     sequence->categories = o->by == COLORING_CATEGORY || may_have_words(o) ? &figure->categories : NULL;
     if (cgt_frame_sequence_unwrap(sequence, cgt_figure_unwraps(o), figure->message, sizeof figure->message) ||
-        cgt_frame_sequence_bind(sequence, figure->formula, figure->message, sizeof figure->message))
+        cgt_frame_sequence_bind(sequence, figure->formula, figure->message, sizeof figure->message) ||
+        cgt_figure_scene_open(figure))
         return -1;
-    return cgt_figure_scene_open(figure);
+    if ((o->by == COLORING_AUTO || o->by == COLORING_SPEED || formulas_use_speed(sequence)) &&
+        !(sequence->tracker = cgt_speed_create(figure->context)))
+        return cgt_figure_fail(figure, "out of memory");
+    return 0;
 }
 
 uint64_t cgt_figure_needs_frames(const cgt_figure *figure, uint64_t most)
@@ -173,7 +180,8 @@ static int check_categories(cgt_figure *figure)
     return c->failed ? cgt_figure_fail(figure, "out of memory for the categories") : 0;
 }
 
-int cgt_figure_choose_colors(cgt_figure *figure)
+/* Chooses all but what is told of kinds. */
+static int set_colors(cgt_figure *figure)
 {
     const figure_options *o = &figure->options;
     const int is_words = may_have_words(o) && figure->categories.has_words;
@@ -182,7 +190,7 @@ int cgt_figure_choose_colors(cgt_figure *figure)
                                                     : o->by;
     if (by == COLORING_CATEGORY && check_categories(figure))
         return -1;
-    const int axis = o->up[0] != 0.0f ? 0 : o->up[1] != 0.0f ? 1 : 2;
+    const int axis = o->vertical ? o->vertical - 1 : 2;
     double min = o->range_min, max = o->range_max;
     if (!o->has_range)
         cgt_coloring_choose_range(&figure->survey, by, axis, o->logarithmic, figure->origin, &min, &max);
@@ -219,6 +227,19 @@ int cgt_figure_choose_colors(cgt_figure *figure)
     return 0;
 }
 
+int cgt_figure_choose_colors(cgt_figure *figure)
+{
+    const survey *const s = &figure->survey;
+    const coloring_by by = figure->options.by;
+    if (set_colors(figure))
+        return -1;
+    if (figure->has_survey && s->drawable &&
+        ((by == COLORING_ELEMENT && !s->has_element) || (by == COLORING_TYPE && !s->has_type)))
+        cgt_notices_add(&figure->notices, "--color: the data have no %s: all have one colour",
+                        by == COLORING_TYPE ? "types" : "chemical elements");
+    return 0;
+}
+
 /* Nothing is told twice. */
 int cgt_figure_keep_colors(cgt_figure *figure, const figure_found *was)
 {
@@ -230,7 +251,7 @@ int cgt_figure_keep_colors(cgt_figure *figure, const figure_found *was)
     o->has_range = 1;
     o->range_min = was->min;
     o->range_max = was->max;
-    const int failed = cgt_figure_choose_colors(figure);
+    const int failed = set_colors(figure);
     o->by = by;
     o->has_range = has_range;
     o->range_min = range[0];
@@ -408,10 +429,10 @@ void cgt_figure_take_hand(cgt_figure *figure)
 
 /* ---- All that is left ---------------------------------------------------------------------------------------- */
 
-/* Speeds that the colours do not show are not looked for. */
+/* Speeds that neither the colours show nor a formula has are not looked for. */
 static void drop_speeds(cgt_figure *figure)
 {
-    if (figure->coloring.by == COLORING_SPEED || (figure->formula && cgt_expression_uses(figure->formula, "speed")))
+    if (figure->coloring.by == COLORING_SPEED || formulas_use_speed(&figure->sequence))
         return;
     cgt_speed_release(figure->sequence.tracker);
     figure->sequence.tracker = NULL;

@@ -222,7 +222,8 @@ int cgt_figure_choose_overlay(cgt_figure *figure);
 int cgt_figure_open_picture(cgt_figure *figure);
 void cgt_figure_close_picture(cgt_figure *figure);
 
-/* How the picture is made that path.start and light see; the options give its size. */
+/* How the picture is made that path.start and light see; the options give its size. Camera keys have the depths of
+ * figure->camera, which changes by frames. */
 cgt_picture_options cgt_figure_get_settings(const cgt_figure *figure);
 
 /* Draws the scene by figure->camera to figure->image. Errors are those of figure->drawing. */

@@ -134,7 +134,8 @@ static double arm_of(const cgt_camera *camera, double arm[3])
     return length;
 }
 
-/* On the arc between two unit vectors; where they are opposite, over the vector `up`. */
+/* On the arc between two unit vectors; where they are opposite, around the vector `up`: over it
+ * the camera would look along it. */
 static void slerp(const double a[3], const double b[3], const double up[3], double s, double out[3])
 {
     const double cosine = fmin(1.0, fmax(-1.0, dot(a, b)));
@@ -143,9 +144,8 @@ static void slerp(const double a[3], const double b[3], const double up[3], doub
         side[c] = b[c] - cosine * a[c];
     length = sqrt(dot(side, side));
     if (length < 1e-9 && cosine < 0.0) {
-        const double along = dot(up, a);
         for (int c = 0; c < 3; c++)
-            side[c] = up[c] - along * a[c];
+            side[c] = up[(c + 1) % 3] * a[(c + 2) % 3] - up[(c + 2) % 3] * a[(c + 1) % 3];
         length = sqrt(dot(side, side));
     }
     const double angle = s * acos(cosine);

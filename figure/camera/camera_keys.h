@@ -5,7 +5,8 @@
  *     FRAME CAMERA [ease|linear|hold]
  * FRAME is a number of the input, CAMERA as of -c; the word says how the camera goes on to the next key: slowly at both
  * ends (default), evenly, or not before the next key. Lines that are empty or begin with # are left out. Between two
- * keys the eye goes around the target, on an arc whose radius changes by equal ratios. */
+ * keys the eye goes around the target, on an arc whose radius changes by equal ratios; to the opposite side around what
+ * points up. */
 #ifndef CAMERA_KEYS_H
 #define CAMERA_KEYS_H
 

@@ -49,10 +49,9 @@ void cgt_particles_free(particles *p)
     memset(p, 0, sizeof *p);
 }
 
-/* The radius of a sphere by the rules; the last of several that fit counts. */
-static float radius_of(const particle_rules *r, const cgt_trajectory_frame *f, uint32_t i)
+/* The radius of a sphere by the rules for kinds, else `radius`; the last of several that fit counts. */
+static float radius_of(const particle_rules *r, const cgt_trajectory_frame *f, uint32_t i, float radius)
 {
-    float radius = f->xyzr[4 * (size_t)i + 3];
     for (uint32_t k = 0; k < r->radius_count; k++) {
         const particle_kind *kind = &r->radii[k];
         const int fits =
@@ -71,7 +70,8 @@ void cgt_particle_radii(const particle_rules *r, const cgt_trajectory_frame *f, 
     for (uint32_t k = 0; k < count && (r->radius || r->radius_count); k++) {
         if (r->radius && k % BLOCK == 0)
             cgt_expression_values(r->radius, first + k, count - k < BLOCK ? count - k : BLOCK, values);
-        radius[k] = r->radius_scale * (r->radius ? (float)values[k % BLOCK] : radius_of(r, f, first + k));
+        const float own = r->radius ? (float)values[k % BLOCK] : f->xyzr[4 * (size_t)(first + k) + 3];
+        radius[k] = r->radius_scale * radius_of(r, f, first + k, own);
     }
 }
 
@@ -160,7 +160,7 @@ int cgt_particles_select(particles *p, const particle_rules *r, const cgt_trajec
 int cgt_particles_sort(particles *p)
 {
     uint32_t at[PARTICLE_LAYERS] = {0};
-    particles to = {.count = p->count};
+    particles to = {.count = 0};
     at[0] = p->layer ? 0 : p->count;
     for (uint32_t i = 0; i < p->count && p->layer; i++)
         at[p->layer[i]]++;
@@ -182,6 +182,7 @@ int cgt_particles_sort(particles *p)
         to.source[k] = p->source[i];
         to.layer[k] = p->layer[i];
     }
+    to.count = p->count;
     memcpy(to.begin, p->begin, sizeof to.begin);
     cgt_particles_free(p);
     *p = to;

@@ -26,7 +26,7 @@ typedef struct particle_rules {
     const expression *layer;  /* whose value mod PARTICLE_LAYER_STEP is a sphere's layer; NULL: all are opaque */
     const expression *radius; /* NULL: those of the file. One that is negative or NaN leaves the sphere out */
     float radius_scale;       /* of all radii; above 0 */
-    particle_kind radii[PARTICLE_KINDS];
+    particle_kind radii[PARTICLE_KINDS]; /* before the formula and the file */
     uint32_t radius_count;
     uint32_t images[3]; /* copies along each edge of the box, the original included: 1 or more */
 } particle_rules;

@@ -86,8 +86,11 @@ static void look_from(figure_options *o, int axis)
 void cgt_figure_options_axes(figure_options *o, cgt_trajectory_kind kind)
 {
     float *up = o->up, *view = o->view;
+    const int usual = kind == CGT_TRAJECTORY_TRIANGLES ? 1 : 2;
+    if (!o->vertical)
+        o->vertical = 1 + (is_zero(up) ? usual : up[0] != 0.0f ? 0 : up[1] != 0.0f ? 1 : 2);
     if (is_zero(up)) {
-        const int axis = kind == CGT_TRAJECTORY_TRIANGLES ? 1 : 2;
+        const int axis = usual;
         up[axis] = 1.0f;
         if (!is_zero(view) && cgt_camera_path_is_along(view, up)) {
             up[axis] = 0.0f;

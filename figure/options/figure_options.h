@@ -165,6 +165,8 @@ typedef struct figure_options {
     float zoom;                /* of the automatic camera; 0: not given */
     float view[3], up[3], fov; /* of the automatic camera; all zero: chosen by cgt_figure_options_axes */
     view_side side;            /* in place of view */
+    int vertical;              /* the number of the data's axis that points up, from 1, whatever the camera's up is;
+                                  0: not yet chosen */
     int has_view, has_up, has_fov;
     camera_keys keys; /* count 0: none; else has_camera, and camera is the first */
     float orbit;      /* degrees over the run */
@@ -195,7 +197,8 @@ void cgt_figure_options_init(figure_options *o);
 int cgt_figure_options_finish(figure_options *o, char *error, size_t size);
 
 /* Chooses up and view where no option does: up is z for spheres, as in simulators, and y for triangles, as
- * in modelling programs; another axis where that is the view. The view is from the side and slightly above. */
+ * in modelling programs; another axis where that is the view. The view is from the side and slightly above. Heights are
+ * along the axis that points up before a view along it takes another one. */
 void cgt_figure_options_axes(figure_options *o, cgt_trajectory_kind kind);
 
 /* The layer of an opacity above 0, which is made where there is none; UINT32_MAX: there is no room for it. */

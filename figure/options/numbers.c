@@ -115,6 +115,15 @@ number_text cgt_number(int digits, double value)
     return n;
 }
 
+int cgt_number_digits(double largest, double step)
+{
+    const int least = 6, most = 15;
+    const double needed = step > 0.0 && largest > step ? 1.0 + ceil(log10(largest / step)) : 1.0;
+    if (!(needed > least))
+        return least;
+    return (int)fmin(fmax(needed, 1.0 + floor(log10(largest))), most); /* whole numbers without an exponent */
+}
+
 number_text cgt_fixed(int decimals, double value)
 {
     number_text n;

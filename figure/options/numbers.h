@@ -27,6 +27,9 @@ typedef struct number_text {
 } number_text;
 number_text cgt_number(int digits, double value);
 
+/* How many digits tell numbers apart that are `step` from each other and at most `largest`: 6 to 15. */
+int cgt_number_digits(double largest, double step);
+
 /* The same with so many decimals, 0 to 9, where the number is below 10^15. */
 number_text cgt_fixed(int decimals, double value);
 

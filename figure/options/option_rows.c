@@ -163,7 +163,7 @@ const option_row cgt_figure_rows[] = {
      .repeats = 1},
     {"cut", 0, "X0,Y0,Z0,X1,Y1,Z1", "Only spheres whose centres are in this box", PARSED(particles, cgt_parse_cut),
      .repeats = 1},
-    {"radius-by", 0, "FORMULA", "Radius of each sphere, such as 'sqrt(c_mass)/2'",
+    {"radius-by", 0, "FORMULA", "Radius of each sphere that --type-radius does not name, such as 'sqrt(c_mass)/2'",
      PARSED(particles.radius, cgt_parse_formula)},
     {"radius-scale", 0, "S", "Multiply all radii, for balls and sticks by 0.3 for example",
      FLOAT(particles.radius_scale, FLT_MIN, 1e30f)},

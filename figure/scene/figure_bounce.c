@@ -23,6 +23,7 @@ struct figure_bounce {
     cgt_material material[MOST_MATERIALS]; /* 0 is matt */
     uint32_t materials;
     uint8_t material_of[BOUNCE_MATERIALS][COLORING_ENTRIES]; /* by rule and colour; 0: none yet */
+    uint32_t last_step; /* of the colours of a range, which are more than materials; 0: each has a material */
     sphere_list list[KINDS];
     cgt_triangles floor;
     const uint16_t *triangle_entry;
@@ -37,11 +38,22 @@ struct figure_bounce {
 
 /* ---- Materials ---------------------------------------------------------------------------------------------- */
 
+/* The colour of a range's nearest step; of other entries their own. */
+static uint32_t nearest_step(const figure_bounce *b, uint32_t entry)
+{
+    const uint32_t last = b->last_step, most = COLORING_STEPS - 1;
+    if (!last || entry > most)
+        return entry;
+    const uint32_t step = (entry * last + most / 2) / most;
+    return (step * most + last / 2) / last;
+}
+
 /* The material of a rule in a colour. Glass of radius r is as dark as its colour along r. */
 static uint8_t material_of(figure_bounce *b, const bounce_options *o, int rule, uint32_t entry, float radius)
 {
     if (rule < 0 || o->materials[rule].material == CGT_MATERIAL_MATTE)
         return 0;
+    entry = nearest_step(b, entry);
     uint8_t *known = &b->material_of[rule][entry];
     if (*known)
         return *known;
@@ -209,9 +221,13 @@ int cgt_figure_bounce_find(const cgt_figure *figure, uint32_t geometry, uint32_t
 int cgt_figure_bounce_set(cgt_figure *figure, const frame_parts *parts)
 {
     figure_bounce *b = figure->bounce;
+    const uint32_t rules = figure->options.bounce.count;
     b->looks = 0;
     b->materials = 1;
     memset(b->material_of, 0, sizeof b->material_of);
+    b->last_step = cgt_coloring_has_range(&figure->coloring) && rules
+                       ? (MOST_MATERIALS - 1) / rules - 2 /* of each rule all steps, and what is unknown */
+                       : 0;
     cgt_result result = CGT_OK;
     const int has_spheres = figure->frame->kind != CGT_TRAJECTORY_TRIANGLES;
     if (!has_spheres && set_triangles(figure))

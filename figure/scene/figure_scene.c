@@ -344,7 +344,9 @@ int cgt_figure_scene_prepare(const cgt_figure *figure, const cgt_trajectory_fram
         snprintf(error, error_size, "%s: --label is for spheres, and this is a file of triangles", figure->source);
         return -1;
     }
-    if (s->labels.which && cgt_label_rules_apply(&s->labels, &s->rules, f, &parts->labels)) {
+    if (!s->labels.which) { /* those of options before these */
+        parts->labels.count = 0;
+    } else if (cgt_label_rules_apply(&s->labels, &s->rules, f, &parts->labels)) {
         snprintf(error, error_size, "out of memory for labels");
         return -1;
     }

@@ -65,13 +65,15 @@ static int grow(float **array, size_t count, size_t floats)
     return 0;
 }
 
+/* A frame without spheres has speeds, too: none of them is missing. */
 static int reserve(speed_tracker *t, uint32_t count)
 {
-    if (count <= t->capacity)
+    const uint32_t room = count ? count : 1;
+    if (room <= t->capacity)
         return 0;
-    if (grow(&t->speed, count, 1) || grow(&t->last_xyz, count, 3) || (t->xyz && grow(&t->xyz, count, 3)))
+    if (grow(&t->speed, room, 1) || grow(&t->last_xyz, room, 3) || (t->xyz && grow(&t->xyz, room, 3)))
         return -1;
-    t->capacity = count;
+    t->capacity = room;
     return 0;
 }
 

@@ -267,9 +267,12 @@ static void follow_sphere(unwrapping *u, const double share[3], uint32_t i, uint
     }
 }
 
-static void share_of(const periodic_box *box, const float p[3], double share[3])
+/* From the box's corner: those of far boxes whose edges change would jump. */
+static void share_of(const periodic_box *box, const cgt_trajectory_frame *f, uint32_t i, double share[3])
 {
-    const double place[3] = {(double)p[0], (double)p[1], (double)p[2]};
+    const float *const p = f->xyzr + 4 * (size_t)i;
+    const double place[3] = {(double)p[0] - f->box_origin[0], (double)p[1] - f->box_origin[1],
+                             (double)p[2] - f->box_origin[2]};
     for (int e = 0; e < 3; e++)
         share[e] = cgt_periodic_box_share(box, e, place);
 }
@@ -287,14 +290,14 @@ static int follow(unwrapping *u, const periodic_box *box, const cgt_trajectory_f
     for (uint32_t i = 0; i < f->count && past->is_there; i++) {
         const uint32_t k = id_match_find(&past->spheres, f->id, f->count, i);
         memset(u->move[i], 0, sizeof u->move[i]);
-        share_of(box, f->xyzr + 4 * (size_t)i, share);
+        share_of(box, f, i, share);
         if (k != UINT32_MAX)
             follow_sphere(u, share, i, k);
     }
     if (reserve_past(past, f->count) || cgt_id_match_remember(&past->spheres, f->id, f->count))
         return -1;
     for (uint32_t i = 0; i < f->count; i++)
-        share_of(box, f->xyzr + 4 * (size_t)i, past->share[i]);
+        share_of(box, f, i, past->share[i]);
     if (f->count)
         memcpy(past->move, u->move, f->count * sizeof *past->move);
     past->is_there = 1;

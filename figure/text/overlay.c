@@ -208,8 +208,11 @@ static uint32_t find_ticks(const overlay *o, uint32_t most, double ticks[MOST_TI
 {
     const coloring *const k = o->coloring;
     const uint32_t count = cgt_overlay_ticks(k->min, k->max, k->logarithmic, ticks, most);
+    const int digits = count < 2 ? 6
+                                 : cgt_number_digits(fmax(fabs(ticks[0]), fabs(ticks[count - 1])),
+                                                     ticks[count - 1] - ticks[count - 2]);
     for (uint32_t i = 0; i < count; i++)
-        texts[i] = cgt_number(6, fabs(ticks[i]) < 1e-12 * fabs(k->max) ? 0.0 : ticks[i]);
+        texts[i] = cgt_number(digits, fabs(ticks[i]) < 1e-12 * fabs(k->max) ? 0.0 : ticks[i]);
     return count;
 }
 

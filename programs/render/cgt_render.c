@@ -6,6 +6,7 @@
  * (cgt/picture.h); threads write the pictures behind (render_writer.h). */
 #define _POSIX_C_SOURCE 200809L
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +15,7 @@
 
 #include "common/out_file.h"
 #include "common/program.h"
+#include "options/numbers.h"
 #include "render/render_setup.h"
 #include "system/process.h"
 
@@ -163,6 +165,13 @@ static int write_contact_sheet(renderer *r)
     return 0;
 }
 
+/* With so many digits that the ends differ. */
+static void print_range(double min, double max, FILE *to)
+{
+    const int digits = cgt_number_digits(fmax(fabs(min), fabs(max)), 0.01 * (max - min));
+    fprintf(to, " from %s to %s", cgt_number(digits, min).text, cgt_number(digits, max).text);
+}
+
 /* How a range was found that the command line does not give. */
 static void print_range_rule(const renderer *r, FILE *to)
 {
@@ -172,16 +181,17 @@ static void print_range_rule(const renderer *r, FILE *to)
     if (r->figure->options.has_range || !r->figure->has_survey ||
         (!is_formula && r->figure->coloring.by != COLORING_SPEED))
         return;
-    if (is_formula && s->value_min < s->value_max)
-        fprintf(to, ", the %s of values from %g to %g",
+    if (is_formula && s->value_min < s->value_max) {
+        fprintf(to, ", the %s of values",
                 cgt_survey_value_range(s, r->figure->options.logarithmic, &min, &max) ? "1 % and the 99 % quantile"
-                                                                                      : "least and the greatest",
-                s->value_min, s->value_max);
-    else if (is_formula)
+                                                                                      : "least and the greatest");
+        print_range(s->value_min, s->value_max, to);
+    } else if (is_formula) {
         fprintf(to, s->values ? ", which all values are" : ", since no value is finite");
-    else
+    } else {
         fprintf(to, ", %s and the %s", r->figure->coloring.logarithmic ? "the 1 % quantile of those above 0" : "0",
                 cgt_survey_speed_quantile(s, 0.99) > 0.0f ? "99 % quantile" : "greatest");
+    }
     if (r->figure->options.is_symmetric)
         fprintf(to, ", as far below 0 as above");
     if (is_formula && s->values && s->unknown_values)
@@ -207,7 +217,7 @@ static void print_summary(const renderer *r)
     fprintf(to, "colour            %s",
             r->figure->formula ? r->figure->options.formula : names[r->figure->coloring.by]);
     if (cgt_coloring_has_range(&r->figure->coloring))
-        fprintf(to, " from %g to %g", r->figure->coloring.min, r->figure->coloring.max);
+        print_range(r->figure->coloring.min, r->figure->coloring.max, to);
     print_range_rule(r, to);
     if (r->figure->coloring.by == COLORING_SPEED)
         fprintf(to, ", %s",

@@ -881,6 +881,14 @@ TEST(texts_change_over_what_is_shown)
         if (memcmp(then, expected, sizeof then) != 0)
             fail_msg("%s: another picture than that of a figure which had it from the start", options[i][0]);
     }
+    cgt_figure_unset(figure, "label-text");
+    cgt_figure_unset(figure, "label"); /* which goes */
+    draw_shown(figure, then);
+    cgt_figure_get(figure, NULL, settings, sizeof settings);
+    assert_int_equal(cgt_figure_unset(fresh, NULL), CGT_OK);
+    assert_int_equal(cgt_figure_set_lines(fresh, settings), CGT_OK);
+    draw(fresh, &data, expected);
+    assert_memory_equal(then, expected, sizeof then);
     cgt_figure_release(figure);
     cgt_figure_release(fresh);
     cgt_figure_frame_release(frame);
@@ -1003,10 +1011,11 @@ TEST(what_was_chosen_makes_the_picture)
 /* So it does where the view says which axis is height, and where the scale is logarithmic, or could not be. */
 TEST(what_was_chosen_is_accepted)
 {
-    static const char *const settings[] = {"view = top\ncolor = height\n", "color = id\nlog-scale\n",
-                                           "color = height\nlog-scale\n", "color = red\nlog-scale\n"};
-    static const char *const chosen[] = {"\ncolor = y\n", "\ncolor = id\nrange = 1,49\nlog-scale\n",
-                                         "\ncolor = height\nrange = ", "\ncolor = ff0000\n"};
+    static const char *const settings[] = {"up = x\nview = top\ncolor = height\n", "color = id\nlog-scale\n",
+                                           "color = height\nlog-scale\n", "color = red\nlog-scale\n",
+                                           "view = top\ncolor = height\n"};
+    static const char *const chosen[] = {"\ncolor = x\n", "\ncolor = id\nrange = 1,49\nlog-scale\n",
+                                         "\ncolor = height\nrange = ", "\ncolor = ff0000\n", "\ncolor = height\n"};
     const cgt_figure_data data = grains();
     uint8_t first[BYTES], again[BYTES];
     char text[1000];

@@ -245,6 +245,7 @@ TEST(spheres_are_followed_from_frame_to_frame)
             for (int e = 0; e < 3; e++)
                 share[i][e] = uniform(&r, 0.0, 1.0);
         cgt_unwrap_restart(u);
+        const double corner = turn ? 40.0 : 0.0; /* of a box that stands far away, too */
         for (int frame = 0; frame < FRAMES; frame++) {
             cgt_trajectory_frame f = {.kind = CGT_TRAJECTORY_SPHERES, .count = SPHERES, .xyzr = xyzr, .id = id};
             const double scale = uniform(&r, 0.9, 1.1);
@@ -252,6 +253,7 @@ TEST(spheres_are_followed_from_frame_to_frame)
             f.number = (uint64_t)frame;
             for (int e = 0; e < 3; e++) {
                 f.periodic[e] = e != 1;
+                f.box_origin[e] = corner;
                 for (int c = 0; c < 3; c++)
                     f.box_edge[e][c] = scale * edge[e][c];
             }
@@ -261,7 +263,7 @@ TEST(spheres_are_followed_from_frame_to_frame)
                 for (int e = 0; e < 3; e++)
                     share[i][e] += frame ? uniform(&r, -0.4, 0.4) : 0.0;
                 for (uint32_t c = 0; c < 3; c++) {
-                    double place = 0.0;
+                    double place = corner;
                     for (int e = 0; e < 3; e++)
                         place += (share[i][e] - (e != 1 ? floor(share[i][e]) : 0.0)) * f.box_edge[e][c];
                     xyzr[4 * at + c] = (float)place;
@@ -271,7 +273,7 @@ TEST(spheres_are_followed_from_frame_to_frame)
             assert_true(cgt_unwrap_follows(u) && cgt_unwrap_needs_all(u) && !endless);
             for (uint32_t i = 0; i < SPHERES; i++)
                 for (uint32_t c = 0; c < 3; c++) {
-                    double place = 0.0;
+                    double place = corner;
                     for (int e = 0; e < 3; e++)
                         place += share[i][e] * f.box_edge[e][c];
                     const double got = (double)f.xyzr[4 * ((i + first) % SPHERES) + c];

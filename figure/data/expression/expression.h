@@ -3,7 +3,8 @@
  *
  * Formulas over the columns of a frame, such as sqrt(vx^2 + vy^2) or c_pe/2:
  *   + - * / ^ and ( ), in the usual order; ^ binds tighter than a sign and groups from the right
- *   < <= > >= == != && || !, whose results are 0 and 1; and, or, not, which is applied after comparisons
+ *   < <= > >= == != && || !, whose results are 0 and 1; and, or, not, which is applied after comparisons; NaN
+ *   is no, as 0 is
  *   sqrt abs exp log log10 sin cos tan floor ceil sign, min(a, b), max(a, b), mod(a, b), if(condition, a, b); pi
  *   x y z radius id type element speed step time index, and every column of the file under its name, which may contain
  *   digits, _ . : [ ] after its first letter; site is 0 where no column has it

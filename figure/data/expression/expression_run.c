@@ -225,7 +225,7 @@ static double apply_one(expression_op op, double a)
 {
     switch (op) {
     case OP_NEGATE: return -a;
-    case OP_NOT: return a == 0.0;
+    case OP_NOT: return !cgt_expression_holds(a);
     case OP_SQRT: return sqrt(a);
     case OP_ABS: return fabs(a);
     case OP_EXP: return exp(a);
@@ -254,8 +254,8 @@ static double apply_two(expression_op op, double a, double b)
     case OP_AT_LEAST: return a >= b;
     case OP_EQUAL: return a == b;
     case OP_UNEQUAL: return a != b;
-    case OP_AND: return a != 0.0 && b != 0.0;
-    case OP_OR: return a != 0.0 || b != 0.0;
+    case OP_AND: return cgt_expression_holds(a) && cgt_expression_holds(b);
+    case OP_OR: return cgt_expression_holds(a) || cgt_expression_holds(b);
     case OP_MIN: return fmin(a, b);
     case OP_MAX: return fmax(a, b);
     default: return fmod(a, b);
@@ -285,7 +285,7 @@ static void run_block(const expression *e, uint32_t first, uint32_t count, doubl
         } else {
             top -= 2;
             for (uint32_t i = 0; i < count; i++)
-                stack[top - 1][i] = stack[top - 1][i] != 0.0 ? stack[top][i] : stack[top + 1][i];
+                stack[top - 1][i] = cgt_expression_holds(stack[top - 1][i]) ? stack[top][i] : stack[top + 1][i];
         }
     }
 }

@@ -45,6 +45,13 @@ differs glass ground "--floor"
 draw given --bounces 8 --floor -c 4,-18,8,4,4,3,0,0,1,30 -k red balls.xyz
 draw bare --bounces 8 -c 4,-18,8,4,4,3,0,0,1,30 -k red balls.xyz
 differs given bare "--floor where camera and colour are given"
+# Values have more colours than there are materials: the order of the balls does not count.
+many() { awk 'BEGIN { print "900\n"; for (i = 0; i < 900; i++) { k = '"$1"'; print "C", k, k % 30 * 4, k % 7 } }'; }
+many i >"$tmp/rising.xyz"
+many 899-i >"$tmp/falling.xyz"
+draw rising --bounces 2 --material all=mirror -k x rising.xyz
+draw falling --bounces 2 --material all=mirror -k x falling.xyz
+same rising falling "mirrors that come late have other colours"
 draw less --bounces 8 --hide 2 --material all=glass balls.xyz
 differs less glass "--hide"
 draw several -t 3 --bounces 8 --material O=glass --material H=mirror balls.xyz

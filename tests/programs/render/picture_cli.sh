@@ -46,6 +46,12 @@ differs floor_soft transparent "a floor among figures"
 draw above -c $camera --floor --last 0 sinking.xyz
 draw below -c $camera --floor-height=-0.7 --last 0 row.xyz
 same above below "the floor of a run is not below its lowest frame"
+# Depths are those of each key, which are not all as far away.
+far=4,-90,30,4,4,4,0,0,1,12
+printf '0 %s\n1 %s\n' $camera $far >"$tmp/cue.keys"
+draw cue_key --camera-keys cue.keys --style plain --light 1,-1,1 --depth-cue --first 1 sinking.xyz
+draw cue_camera -c $far --style plain --light 1,-1,1 --depth-cue --first 1 sinking.xyz
+same cue_key cue_camera "--depth-cue is not that of the frame's camera"
 draw place -c $camera --floor-place=0,0,0.3,10 row.xyz
 draw placed -c $camera --floor-place=0,0,5,10 --floor-height 0.3 row.xyz
 same place placed "--floor-height does not count with --floor-place"

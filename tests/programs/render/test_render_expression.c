@@ -73,6 +73,10 @@ TEST(formulas_have_their_values)
         {"c_pe[1] / z", 128.5},
         {"min(x, 3) + max(y, z)", 5.0},
         {"mod(x, 10)", 7.0},
+        {"sqrt(z) && 1", 0.0}, /* NaN is no */
+        {"0 || sqrt(z)", 0.0},
+        {"!sqrt(z)", 1.0},
+        {"if(sqrt(z), 1, 2)", 2.0},
         {"if(type == 3, 10, 20)", 10.0},
         {"if(z, 10, 20)", 10.0},
         {"type != 3 || x >= 257 && y < 3", 1.0},

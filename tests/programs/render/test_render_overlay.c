@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "options/numbers.h"
 #include "text/overlay.h"
 
 enum { WIDTH = 320, HEIGHT = 200 };
@@ -118,6 +119,11 @@ TEST(ticks_are_round)
         if (rows[i].count)
             assert_true(fabs(ticks[0] - rows[i].first) < 1e-9 * fabs(rows[i].first) + 1e-12);
     }
+    assert_int_equal(cgt_number_digits(12345680.0, 20.0), 8); /* so that the numbers at them differ */
+    assert_int_equal(cgt_number_digits(3.00002, 1e-5), 7);
+    assert_int_equal(cgt_number_digits(5e6, 1e6), 6);
+    assert_int_equal(cgt_number_digits(1.0, 0.0), 6);
+    assert_int_equal(cgt_number_digits(1e30, 1e-30), 15);
     assert_int_equal(cgt_overlay_ticks(1.0, 1.0, 0, ticks, 6), 0);
     assert_int_equal(cgt_overlay_ticks(0.0, INFINITY, 0, ticks, 6), 0);
 }

@@ -73,9 +73,14 @@ TEST(rules_choose_and_size)
     }
     assert_int_equal(p.count, k);
     rules.show = NULL;
-    rules.radius = radius; /* negative ones are left out */
+    rules.radius = radius; /* negative ones are left out, but not of a type that has one of its own */
     assert_int_equal(cgt_particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
-    assert_true(p.count > 200 && p.count < COUNT);
+    for (k = 0; k < p.count; k++)
+        assert_true(type[p.source[k]] != 3 || p.xyzr[4 * k + 3] == 0.5f);
+    const uint32_t with_types = p.count;
+    rules.radius_count = 0;
+    assert_int_equal(cgt_particles_select(&p, &rules, &frame, entry, error, sizeof error), 0);
+    assert_true(p.count > 200 && p.count < with_types && with_types < COUNT);
     for (k = 0; k < p.count; k++)
         assert_true(fabsf(p.xyzr[4 * k + 3] - 2.0f * (p.xyzr[4 * k + 1] - 1.0f)) < 1e-5f);
     rules = no_rules();
@@ -108,6 +113,7 @@ TEST(layers_are_sorted)
         assert_int_equal(cgt_particles_sort(&p), 0);
         static const uint32_t of_layer[4] = {1, 3, 0, 2}; /* types */
         assert_int_equal(p.begin[PARTICLE_LAYERS], 2 * COUNT);
+        assert_int_equal(p.count, 2 * COUNT);
         for (uint32_t k = 0; k < PARTICLE_LAYERS; k++) {
             assert_int_equal(p.begin[k + 1] - p.begin[k], k < 4 && of_layer[k] ? 2 * COUNT / 3 : 0);
             for (uint32_t i = p.begin[k]; i < p.begin[k + 1]; i++) {
