@@ -281,7 +281,8 @@ CGT_API uint64_t cgt_picture_get_hits(const cgt_picture *picture);
 
 /* ---- Cameras ------------------------------------------------------------------------------------------------ */
 
-/* Gets a camera's unit vectors to the right, up, and along its axis. An up of 0, 0, 0 stands for (0, 1, 0). */
+/* Gets a camera's unit vectors to the right, up, and along its axis. In this and the calls below zeros stand for the
+ * defaults of cgt_camera. */
 CGT_API void cgt_camera_get_axes(const cgt_camera *camera, float right[3], float up[3], float forward[3]);
 
 /* Gets the direction towards a light over the camera's left shoulder, not of unit length.

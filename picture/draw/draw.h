@@ -83,6 +83,12 @@ cgt_result cgt_draw_shade(drawing *d);
 /* The same without planes. */
 cgt_result cgt_draw_tiles(drawing *d, const cgt_scene *scene, const cgt_trace_options *options);
 
+/* The camera with the library's defaults in place of an eye and an up of zeros. */
+cgt_camera cgt_draw_default_view(const cgt_camera *camera);
+
+/* Makes a vector of any length a unit one; 0, 0, 0 stays. */
+void cgt_draw_normalize(float v[3]);
+
 /* A camera's unit vectors to the right and up, scaled to half a picture, and along its axis. */
 void cgt_draw_half_picture(const cgt_camera *camera, float aspect, float right[3], float up[3], float forward[3]);
 
