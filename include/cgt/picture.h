@@ -222,7 +222,7 @@ typedef struct cgt_picture cgt_picture;
  *   context   where its scenes are from; must outlive it
  *   options   NULL: the defaults; copied
  *   picture   gets the picture; on an error, one that has the message, or NULL if there is no memory even for that
- * Memory:  the C library's. PLAIN: 10 KB. BOUNCES: 20 bytes a ray, and 3.3 MB + 1.4 MB * (bounces + 1) for each thread
+ * Memory:  the C library's. PLAIN: 10 KB. BOUNCES: 24 bytes a ray, and 3.3 MB + 1.4 MB * (bounces + 1) for each thread
  *          while it traces. Else 24 bytes a ray (a pixel has antialias * antialias), 8 more from the first picture
  *          with triangles, 4 with ambient occlusion, 8 after two steps of it, 1 for each hard light with shadows, 4 for
  *          each soft one, all of it again for each layer; with antialiasing 4 more, and as much as a ray for each

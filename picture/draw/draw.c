@@ -10,13 +10,13 @@
 
 /* ---- Memory ------------------------------------------------------------------------------------------------- */
 
-/* Bytes a ray: t, primitive, geometry and normal; then what the lights need. */
+/* Bytes a ray: t, primitive, geometry and normal, or light; then what the lights need. */
 static size_t bytes_a_ray(const drawing *d)
 {
     const cgt_picture_options *const o = d->options;
     size_t bytes = 6 * sizeof(float);
     if (o->shading == CGT_SHADING_BOUNCES)
-        return 5 * sizeof(float);
+        return bytes;
     bytes += d->keeps_whole ? sizeof(uint32_t) : 0;
     bytes += o->lighting.ambient ? sizeof(float) : 0;
     for (uint32_t i = 0; i < o->lighting.light_count; i++)
@@ -41,11 +41,11 @@ static void lay_out(drawing *d, uint32_t first_row)
     uintptr_t memory = (uintptr_t)d->memory;
     d->t = take(&memory, rays, size, before);
     d->primitive = take(&memory, rays, size, before);
+    d->geometry = take(&memory, rays, size, before);
     if (o->shading == CGT_SHADING_BOUNCES) {
         d->light = take(&memory, rays, sizeof *d->light, before);
         return;
     }
-    d->geometry = take(&memory, rays, size, before);
     for (int c = 0; c < 3; c++)
         d->normal[c] = take(&memory, rays, size, before);
     d->rest_plane = d->keeps_whole ? take(&memory, rays, size, before) : NULL;

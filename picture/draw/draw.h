@@ -37,7 +37,7 @@ struct drawing {
     uint32_t ambient, light_samples;     /* rays of each ray to the sky and to soft lights, once the picture is whole */
     uint32_t samples;                    /* of these, traced so far */
     float *t, *normal[3], *u, *v;
-    float (*light)[3]; /* of rays that bounce, in place of all but t and primitive */
+    float (*light)[3]; /* of rays that bounce, in place of all but t, primitive and geometry */
     uint32_t *primitive, *geometry;
     float *sky, *sky_plane;                       /* share of the sky that the ray's hit sees; NULL: all of it */
     float *reach[CGT_PICTURE_MAX_LIGHTS];         /* share of a soft light that arrives there; NULL: all of it */

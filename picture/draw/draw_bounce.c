@@ -106,8 +106,9 @@ uint32_t cgt_draw_bounced_row(const drawing *d, uint32_t y)
             sum.count += (uint32_t)is_hit;
             sum.cover += (float)is_hit;
             if (d->t[ray] < sum.depth) {
+                const uint32_t *const ids = draw_look(d, d->geometry[ray])->of.ids;
                 sum.depth = d->t[ray];
-                sum.id = d->primitive[ray];
+                sum.id = ids ? ids[d->primitive[ray]] : d->primitive[ray];
             }
         }
         draw_store(d, &sum, x, y);

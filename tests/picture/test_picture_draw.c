@@ -1041,8 +1041,9 @@ TEST(mirrors_and_glass_bounce)
     assert_near(s.pixels[at(0.1f, 0.1f)].r, 0.5 * 0.8 * (1.0 - 0.65 * 0.24606), 1e-4); /* half the sky, a bit up */
     assert_true(s.pixels[at(0.1f, 0.1f)].b < 0.01f);
     both[0].material = 2;
+    both[0].ids = (const uint32_t[2]){7, 8};
     assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, both, 2, &image, NULL), CGT_OK);
-    assert_int_equal(s.pixels[at(0.1f, 0.1f)].id, 0);
+    assert_int_equal(s.pixels[at(0.1f, 0.1f)].id, 7);
     assert_near(s.pixels[at(0.1f, 0.1f)].g, 0.25 * 0.25, 1e-5); /* the floor behind it, in the shadow */
     uint8_t whole[3 * PIXELS];
     memcpy(whole, s.rgb, sizeof whole);
