@@ -253,7 +253,8 @@ CGT_API cgt_result cgt_picture_draw(cgt_picture *picture, const cgt_scene *scene
  *   camera      copied
  *   looks       copied, not the arrays that they name: of geometry 0, 1, and so on
  *   look_count  geometries from here on have the default look, {0}
- *   options     of the camera's rays; NULL: the defaults. The statistics must outlive the last read of PLAIN
+ *   options     of the camera's rays; NULL: the defaults. Statistics are of what is opaque, and must outlive the last
+ *               read of PLAIN
  * Building: as cgt_occluded_frame with shadows, as cgt_trace_camera without
  * Errors:   as cgt_trace_camera; STOPPED; OUT_OF_MEMORY; INVALID_ARGUMENT. There is nothing to read then */
 CGT_API cgt_result cgt_picture_begin(cgt_picture *picture, const cgt_scene *scene, const cgt_camera *camera,

@@ -171,7 +171,7 @@ uint32_t cgt_draw_shade_row(const drawing *d, uint32_t y);
 
 /* draw_bounce.c: the same from the light of rays that bounce; and that light. *wrong gets a sentence, or NULL. */
 uint32_t cgt_draw_bounced_row(const drawing *d, uint32_t y);
-cgt_result cgt_draw_bounces(drawing *d, const cgt_scene *scene, const char **wrong);
+cgt_result cgt_draw_bounces(drawing *d, const cgt_scene *scene, const cgt_trace_options *options, const char **wrong);
 
 /* draw_outline.c: how dark the outline at a ray is, 0 to 1. */
 float cgt_draw_outline_at(const drawing *d, uint32_t x, uint32_t y);

@@ -58,7 +58,7 @@ static void set_geometries(const drawing *d, whitted_geometry *geometry)
     }
 }
 
-cgt_result cgt_draw_bounces(drawing *d, const cgt_scene *scene, const char **wrong)
+cgt_result cgt_draw_bounces(drawing *d, const cgt_scene *scene, const cgt_trace_options *options, const char **wrong)
 {
     static const cgt_material matte = {.kind = CGT_MATERIAL_MATTE};
     const cgt_picture_options *o = d->options;
@@ -75,7 +75,8 @@ cgt_result cgt_draw_bounces(drawing *d, const cgt_scene *scene, const char **wro
                  .glass_mask = o->bounces.glass_mask,
                  .glass_shadow = glass_shadow,
                  .stop = o->work.stop,
-                 .stop_user = o->work.stop_user};
+                 .stop_user = o->work.stop_user,
+                 .trace = options};
     const cgt_frame frame = cgt_draw_frame(d);
     *wrong = NULL;
     if (!geometry)

@@ -167,7 +167,7 @@ cgt_result cgt_whitted_frame(const whitted *w, const cgt_camera *camera, uint32_
     frame.visitor = visit;
     frame.visitor_user = &job;
     frame.visitor_fields = (uint32_t)CGT_FIELD_T | (uint32_t)CGT_FIELD_PRIMITIVE | (uint32_t)CGT_FIELD_GEOMETRY;
-    cgt_result result = cgt_trace_camera(w->scene, camera, &frame, NULL);
+    cgt_result result = cgt_trace_camera(w->scene, camera, &frame, w->trace);
     while (job.idle) {
         whitted_memory *m = job.idle;
         job.idle = m->next;

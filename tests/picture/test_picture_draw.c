@@ -1042,7 +1042,10 @@ TEST(mirrors_and_glass_bounce)
     assert_true(s.pixels[at(0.1f, 0.1f)].b < 0.01f);
     both[0].material = 2;
     both[0].ids = (const uint32_t[2]){7, 8};
-    assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, both, 2, &image, NULL), CGT_OK);
+    cgt_trace_statistics traced;
+    const cgt_trace_options trace = {.statistics = &traced};
+    assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, both, 2, &image, &trace), CGT_OK);
+    assert_true(traced.rays == PIXELS && traced.hits == PIXELS);
     assert_int_equal(s.pixels[at(0.1f, 0.1f)].id, 7);
     assert_near(s.pixels[at(0.1f, 0.1f)].g, 0.25 * 0.25, 1e-5); /* the floor behind it, in the shadow */
     uint8_t whole[3 * PIXELS];
