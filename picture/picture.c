@@ -218,7 +218,7 @@ static cgt_result begin(cgt_picture *p, const cgt_scene *scene, const cgt_camera
         drawing *const d = part_of(p, k);
         begin_part(p, d, &seen);
         d->behind = k ? &p->opaque : NULL;
-        d->camera.mask = k ? layer[k - 1].mask : seen.mask;
+        d->camera.mask = k ? layer[k - 1].mask & (camera->mask ? camera->mask : UINT32_MAX) : seen.mask;
     }
     if (p->opaque.whole)
         begin_part(p, &p->whole, &seen);

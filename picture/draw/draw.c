@@ -252,7 +252,8 @@ cgt_result cgt_draw_trace(drawing *d, const cgt_scene *scene, const cgt_trace_op
         frame.v = d->v;
     }
     cgt_draw_forget_light(d);
-    const cgt_result result = cgt_trace_camera(scene, &d->camera, &frame, options);
+    const bool is_hidden = d->behind && !d->camera.mask; /* a layer that the camera does not see */
+    const cgt_result result = is_hidden ? CGT_OK : cgt_trace_camera(scene, &d->camera, &frame, options);
     if (result != CGT_OK)
         return result;
     if (d->behind) {

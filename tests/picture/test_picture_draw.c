@@ -775,6 +775,13 @@ TEST(layers_are_mixed_by_depth)
     add_walls(&s, 8.0f, 4.0f);
     draw(&s);
     assert_near(p->r, mixed(0.8f, 0.25f, 0.1f, 0.5f, 0.5f), 1e-6);
+    const cgt_image image = image_of(&s);
+    cgt_camera camera;
+    set_camera(&camera);
+    camera.mask = 1 | 4; /* without the red wall */
+    assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, looks, 4, &image, NULL), CGT_OK);
+    assert_near(p->r, 0.5 * 0.1 + 0.5 * 0.5, 1e-6);
+    assert_near(p->depth, 16.0, 1e-4);
     tear_down(&s);
     set_up(&s, 2, NULL);
     add_walls(&s, 8.0f, -1.0f); /* one is below the floor */
