@@ -1077,6 +1077,16 @@ TEST(mirrors_and_glass_bounce)
     assert_int_equal(cgt_scene_set_capsules(s.scene, NULL, &capsules), CGT_OK);
     assert_int_equal(cgt_scene_commit(s.scene), CGT_OK);
     expect_error(&s, cgt_picture_draw(s.picture, s.scene, &camera, both, 1, &image, NULL), "spheres or triangles");
+    static const uint8_t types[2] = {0, 0};
+    cgt_spheres typed = {.count = 2, .centers = cgt_floats(s.ball[0], 16), .radii = cgt_floats(s.ball[0] + 3, 16)};
+    for (int i = 0; i < 2; i++) {
+        typed.origin[1] = i ? 0.0 : 1.0;
+        typed.types = i ? cgt_uint8s(types, 0) : (cgt_array){0};
+        typed.type_count = (uint32_t)i;
+        assert_int_equal(cgt_scene_set_spheres(s.scene, &(uint32_t){BALL}, &typed), CGT_OK);
+        assert_int_equal(cgt_scene_commit(s.scene), CGT_OK);
+        expect_error(&s, cgt_picture_draw(s.picture, s.scene, &camera, both, 1, &image, NULL), "origin and types");
+    }
     tear_down(&s);
 }
 
