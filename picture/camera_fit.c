@@ -131,13 +131,17 @@ cgt_result cgt_camera_fit_apply(const cgt_camera_fit *fit, cgt_camera *camera)
     const cgt_result result = cgt_camera_reach_show(&fit->reach, &fit->directions, fit->min, fit->max, &fitted);
     if (result != CGT_OK)
         return result;
-    float distance = 0.0f;
+    const double pi = 3.14159265358979323846;
+    double arm[3];
     for (int c = 0; c < 3; c++)
-        distance += (fitted.eye[c] - fitted.target[c]) * (fitted.eye[c] - fitted.target[c]);
+        arm[c] = (double)fitted.eye[c] - (double)fitted.target[c];
+    /* what a perspective camera of this angle shows at its target */
+    const float height = (float)(2.0 * sqrt(camera_dot(arm, arm)) * tan((double)fit->directions.fov * pi / 360.0));
+    if (fit->is_parallel && !(height > 0.0f && isfinite(height)))
+        return CGT_ERROR_INVALID_ARGUMENT;
     memcpy(camera->eye, fitted.eye, sizeof camera->eye);
     memcpy(camera->target, fitted.target, sizeof camera->target);
-    if (fit->is_parallel) /* what a perspective camera of this angle shows at its target */
-        camera->height = 2.0f * sqrtf(distance) * tanf(fit->directions.fov * 0.00872664626f);
+    camera->height = fit->is_parallel ? height : camera->height;
     return CGT_OK;
 }
 

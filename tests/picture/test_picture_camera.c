@@ -143,6 +143,17 @@ TEST(a_fit_in_parts_is_a_fit)
     }
 }
 
+TEST(heights_are_those_of_balls_of_any_size)
+{
+    static const float ball[3] = {0, 0, 0}, radii[3] = {1e-25f, 1.0f, 1e25f};
+    for (int i = 0; i < 3; i++) {
+        const cgt_spheres spheres = {.count = 1, .centers = cgt_floats(ball, 0), .radius = radii[i]};
+        cgt_camera camera = {.projection = CGT_PROJECTION_ORTHOGRAPHIC};
+        assert_int_equal(cgt_camera_fit_spheres(&camera, WIDTH, HEIGHT, &spheres), CGT_OK);
+        assert_near(camera.height / radii[i], 2.08, 1e-4);
+    }
+}
+
 TEST(a_fit_lasts_all_around)
 {
     static const float ball[4] = {6, 0, 0, 1};
