@@ -158,9 +158,12 @@ typedef struct light_rays {
 static int light_rays_init(light_rays *r, const drawing *d, const cgt_picture_light *light, uint32_t samples)
 {
     const uint32_t run = d->light_samples;
-    const size_t hits = (size_t)d->ray_width * ROWS, rays = hits * samples; /* at most 2^20 * 2^8 */
-    const size_t masks = d->light_mask ? rays : 0;
-    float *at = malloc((rays * 9 + masks + hits + 32 * (size_t)run) * sizeof(float) + rays);
+    const size_t hits = (size_t)d->ray_width * ROWS, others = (hits + 32 * (size_t)run) * sizeof(float);
+    const size_t a_ray = (d->light_mask ? 10 : 9) * sizeof(float) + 1;
+    if (hits > (SIZE_MAX - others) / a_ray / samples)
+        return -1;
+    const size_t rays = hits * samples, masks = d->light_mask ? rays : 0;
+    float *at = malloc(rays * a_ray + others);
     r->light = light;
     r->first = d->samples;
     r->samples = samples;
