@@ -112,7 +112,7 @@ typedef struct cgt_picture_light {
     cgt_light light; /* a direction may have any length but 0 */
     float color[3];  /* brightness of a white surface that faces it, 0 or more */
     bool shadows;    /* false (default): it shines through everything */
-    /* Of soft shadows: radius of a lamp; of a direction's cone in degrees, below 90; 0 (default): hard ones. */
+    /* Of soft shadows: radius of a lamp; of a direction's cone in degrees, at most 89; 0 (default): hard ones. */
     float size;
 } cgt_picture_light;
 
@@ -159,8 +159,8 @@ typedef struct cgt_picture_style {
  * darker towards `up`. */
 typedef struct cgt_picture_bounces {
     uint32_t limit; /* reflections and refractions of a path, at most CGT_PICTURE_MAX_BOUNCES; 0 (default): none */
-    uint32_t material_count;       /* at most 256 */
-    const cgt_material *materials; /* must outlive the picture, and may change before it begins; NULL: all are matt */
+    uint32_t material_count;       /* at most 256; 0 (default): there is one, which is matt */
+    const cgt_material *materials; /* must outlive the picture, and may change before it begins */
     uint32_t shadow_mask;          /* mask of geometries that cast shadows; 0 (default): all */
     uint32_t glass_mask; /* of those that cast light shadows, which leave 0.6 of the light; 0 (default): none */
     float up[3];         /* 0, 0, 0 (default): (0, 1, 0) */
@@ -211,7 +211,8 @@ typedef struct cgt_image {
 } cgt_image;
 
 /* Writes an image's bytes to a PNG file.
- * Errors: INVALID_ARGUMENT (there are no bytes, or 2^30 or more), OUT_OF_MEMORY, FILE (errno tells why) */
+ * Errors: INVALID_ARGUMENT (there are no bytes, or 2^30 or more; row_stride is less than a row), OUT_OF_MEMORY, FILE
+ *         (errno tells why) */
 CGT_API cgt_result cgt_write_png(const char *path, const cgt_image *image, uint32_t width, uint32_t height);
 
 /* ---- Pictures ----------------------------------------------------------------------------------------------- */
