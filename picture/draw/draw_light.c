@@ -6,8 +6,8 @@
  *
  * The points follow interleaved sampling (Keller, Heidrich, "Interleaved Sampling", EGWR 2001): of one (0, m,
  * 2)-sequence, Sobol's first two dimensions, each pixel of a 4x4 block takes a run of its own, and the shading averages
- * over 4x4 pixels, wherever they begin: such a window holds each run once, so that 8 rays a pixel act as 128. The runs
- * depend on the pixel's place alone. */
+ * over 5x5 pixels, whose outer rows and columns count half (draw_smooth.c): wherever it lies, such a window holds each
+ * run as often as any other, so that 8 rays a pixel act as 128. The runs depend on the pixel's place alone. */
 #include <math.h>
 #include <stdlib.h>
 
