@@ -44,13 +44,15 @@ typedef struct cgt_look {
     const float *colors;   /* three floats a primitive, or a vertex; NULL (default): none */
     const uint16_t *index; /* entry of the palette, of each primitive or vertex; NULL (default): none */
     const float *palette;  /* three floats an entry; goes with index */
-    bool per_vertex;       /* triangles: colors or index have an element a vertex, interpolated over each triangle */
-    bool halves;           /* capsules: colors or index have two elements each, of the half near either end */
+    /* Triangles: colors or index have an element a vertex, interpolated over each triangle; with CGT_SHADING_BOUNCES
+     * it has the colour of its first vertex. */
+    bool per_vertex;
+    bool halves; /* capsules: colors or index have two elements each, of the half near either end */
     /* `index` with per_vertex: entries below it are one row of colours, along which a hit's entry is interpolated; a
      * hit on a triangle with another entry takes that one. */
     uint32_t palette_steps;
-    /* Triangles: three floats a vertex, of any length; NULL (default): triangles are flat. Light is that of the side
-     * which the eye sees. */
+    /* Triangles: three floats a vertex, of any length; NULL (default), or CGT_SHADING_BOUNCES: triangles are flat.
+     * Light is that of the side which the eye sees. */
     const float *vertex_normals;
     const uint32_t *ids; /* number of each primitive for cgt_linear_pixel; NULL (default): its index */
     /* 1 + the first primitive without outlines, which all behind it lack, too; 0 (default): all have outlines. */
@@ -111,7 +113,7 @@ typedef enum cgt_shading {
 typedef struct cgt_picture_light {
     cgt_light light; /* a direction may have any length but 0 */
     float color[3];  /* brightness of a white surface that faces it, 0 or more */
-    bool shadows;    /* false (default): it shines through everything */
+    bool shadows;    /* false (default): it shines through everything, but with CGT_SHADING_BOUNCES */
     /* Of soft shadows: radius of a lamp; of a direction's cone in degrees, at most 89; 0 (default): hard ones. */
     float size;
 } cgt_picture_light;
