@@ -55,8 +55,11 @@ int main(int argc, char **argv)
         MPI_Abort(MPI_COMM_WORLD, 1);
     const cgt_result joined = cgt_mpi_create(MPI_COMM_WORLD, NULL, &mpi);
     check(mpi, joined);
-    for (uint32_t k = 0; k < 8; k++)
+    for (uint32_t k = 0; k < 8; k++) {
         cgt_get_type_color(k + 1, color[k]);
+        for (uint32_t c = 0; c < 3; c++)
+            color[k][c] = cgt_srgb_to_linear(color[k][c]);
+    }
     for (int picture = 0; picture < (argc > 2 ? atoi(argv[1]) : 0); picture++) {
         char path[1000];
         cgt_scene_statistics built;

@@ -21,6 +21,18 @@ typedef struct mpi_totals {
 
 /* ---- Checks on each rank ------------------------------------------------------------------------------------- */
 
+/* Of looks, which tell how their arrays are packed; cgt_mpi_draw checks the rest. */
+static cgt_result check_look(cgt_mpi *m, uint32_t i, const cgt_mpi_geometry *g)
+{
+    const cgt_look *const l = cgt_mpi_look_of(g);
+    if (l->halves && !g->capsules)
+        return cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "geometry %u: a look's halves are for capsules", i);
+    if ((l->per_vertex || l->vertex_normals) && !g->triangles)
+        return cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT,
+                            "geometry %u: a look's per_vertex and vertex_normals are for triangles", i);
+    return CGT_OK;
+}
+
 /* The library's own checks, by adding the geometry to a scene that is never committed. */
 static cgt_result check_arrays(cgt_mpi *m, cgt_scene *scene, uint32_t i, const cgt_mpi_geometry *g)
 {
@@ -29,7 +41,10 @@ static cgt_result check_arrays(cgt_mpi *m, cgt_scene *scene, uint32_t i, const c
     const cgt_result result = g->spheres     ? cgt_scene_set_spheres(scene, NULL, g->spheres)
                               : g->triangles ? cgt_scene_set_triangles(scene, NULL, g->triangles)
                                              : cgt_scene_set_capsules(scene, NULL, g->capsules);
-    return result == CGT_OK ? cgt_mpi_check_elements(m, i, g) : cgt_mpi_fail_context(m, result);
+    if (result != CGT_OK)
+        return cgt_mpi_fail_context(m, result);
+    const cgt_result looks = check_look(m, i, g);
+    return looks == CGT_OK ? cgt_mpi_check_elements(m, i, g) : looks;
 }
 
 static cgt_result check_geometries(cgt_mpi *m, const cgt_mpi_geometry *geometries, uint32_t count)

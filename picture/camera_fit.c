@@ -7,14 +7,16 @@
 #include <string.h>
 
 #include "camera_reach.h"
+#include "draw/draw.h"
 
 void cgt_camera_orbit(cgt_camera *camera, double degrees)
 {
     const double pi = 3.14159265358979323846;
+    const cgt_camera seen = cgt_draw_default_view(camera);
     double axis[3], arm[3];
     for (int c = 0; c < 3; c++) {
-        axis[c] = (double)camera->up[c];
-        arm[c] = (double)camera->eye[c] - (double)camera->target[c];
+        axis[c] = (double)seen.up[c];
+        arm[c] = (double)seen.eye[c] - (double)seen.target[c];
     }
     if (degrees == 0.0 || camera_normalize(axis))
         return;
@@ -64,22 +66,20 @@ struct cgt_camera_fit {
 static int begin_fit(cgt_camera_fit *fit, const cgt_camera *camera, uint32_t width, uint32_t height,
                      double orbit_degrees)
 {
-    static const float default_up[3] = {0.0f, 1.0f, 0.0f};
     float view[3];
     if (!camera || !width || !height || !isfinite(orbit_degrees))
         return -1;
-    const float *const up =
-        camera->up[0] != 0.0f || camera->up[1] != 0.0f || camera->up[2] != 0.0f ? camera->up : default_up;
-    const float fov = camera->fov > 0.0f ? camera->fov : 45.0f;
+    const cgt_camera seen = cgt_draw_default_view(camera);
+    const float fov = seen.fov > 0.0f ? seen.fov : 45.0f;
     for (int c = 0; c < 3; c++) {
-        view[c] = camera->eye[c] - camera->target[c];
+        view[c] = seen.eye[c] - seen.target[c];
         fit->min[c] = INFINITY;
         fit->max[c] = -INFINITY;
     }
-    if (!can_look(view, up) || !(fov < 180.0f))
+    if (!can_look(view, seen.up) || !(fov < 180.0f))
         return -1;
-    fit->is_parallel = camera->projection == CGT_PROJECTION_ORTHOGRAPHIC;
-    cgt_camera_directions_set(&fit->directions, view, up, fov, (double)width / (double)height, orbit_degrees,
+    fit->is_parallel = seen.projection == CGT_PROJECTION_ORTHOGRAPHIC;
+    cgt_camera_directions_set(&fit->directions, view, seen.up, fov, (double)width / (double)height, orbit_degrees,
                               fit->is_parallel);
     cgt_camera_reach_clear(&fit->reach);
     return 0;
@@ -131,13 +131,17 @@ cgt_result cgt_camera_fit_apply(const cgt_camera_fit *fit, cgt_camera *camera)
     const cgt_result result = cgt_camera_reach_show(&fit->reach, &fit->directions, fit->min, fit->max, &fitted);
     if (result != CGT_OK)
         return result;
-    float distance = 0.0f;
+    const double pi = 3.14159265358979323846;
+    double arm[3];
     for (int c = 0; c < 3; c++)
-        distance += (fitted.eye[c] - fitted.target[c]) * (fitted.eye[c] - fitted.target[c]);
+        arm[c] = (double)fitted.eye[c] - (double)fitted.target[c];
+    /* what a perspective camera of this angle shows at its target */
+    const float height = (float)(2.0 * sqrt(camera_dot(arm, arm)) * tan((double)fit->directions.fov * pi / 360.0));
+    if (fit->is_parallel && !(height > 0.0f && isfinite(height)))
+        return CGT_ERROR_INVALID_ARGUMENT;
     memcpy(camera->eye, fitted.eye, sizeof camera->eye);
     memcpy(camera->target, fitted.target, sizeof camera->target);
-    if (fit->is_parallel) /* what a perspective camera of this angle shows at its target */
-        camera->height = 2.0f * sqrtf(distance) * tanf(fit->directions.fov * 0.00872664626f);
+    camera->height = fit->is_parallel ? height : camera->height;
     return CGT_OK;
 }
 

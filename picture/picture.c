@@ -218,7 +218,7 @@ static cgt_result begin(cgt_picture *p, const cgt_scene *scene, const cgt_camera
         drawing *const d = part_of(p, k);
         begin_part(p, d, &seen);
         d->behind = k ? &p->opaque : NULL;
-        d->camera.mask = k ? layer[k - 1].mask : seen.mask;
+        d->camera.mask = k ? layer[k - 1].mask & (camera->mask ? camera->mask : UINT32_MAX) : seen.mask;
     }
     if (p->opaque.whole)
         begin_part(p, &p->whole, &seen);
@@ -228,7 +228,7 @@ static cgt_result begin(cgt_picture *p, const cgt_scene *scene, const cgt_camera
 static cgt_result trace_bounces(cgt_picture *p)
 {
     const char *wrong;
-    const cgt_result result = cgt_draw_bounces(&p->opaque, p->scene, &wrong);
+    const cgt_result result = cgt_draw_bounces(&p->opaque, p->scene, &p->trace, &wrong);
     const cgt_result told = fail_drawing(p, result);
     return wrong ? fail(p, told, wrong) : told;
 }
@@ -242,11 +242,12 @@ static void move_planes(cgt_picture *p, bool at_rows)
         cgt_draw_move_planes(&p->whole, at_rows ? p->whole.first_ray_row : 0);
 }
 
-static cgt_result trace_parts(cgt_picture *p, const cgt_trace_options *options)
+static cgt_result trace_parts(cgt_picture *p)
 {
+    const cgt_trace_options of_layers = {.precision = p->trace.precision}; /* statistics are of one call */
     cgt_result result = CGT_OK;
     for (uint32_t k = 0; k <= layers_of(&p->options) && result == CGT_OK; k++)
-        result = cgt_draw_trace(part_of(p, k), p->scene, k ? NULL : options);
+        result = cgt_draw_trace(part_of(p, k), p->scene, k ? &of_layers : &p->trace);
     return result == CGT_OK && p->opaque.whole ? cgt_draw_find_whole(&p->opaque) : result;
 }
 
@@ -283,7 +284,7 @@ cgt_result cgt_picture_begin(cgt_picture *p, const cgt_scene *scene, const cgt_c
     if (p->options.shading == CGT_SHADING_BOUNCES)
         return trace_bounces(p);
     move_planes(p, false);
-    return fail_drawing(p, trace_parts(p, options));
+    return fail_drawing(p, trace_parts(p));
 }
 
 cgt_result cgt_picture_step(cgt_picture *p, uint32_t samples, uint32_t *left)
@@ -322,7 +323,7 @@ static cgt_result draw_bands(cgt_picture *p)
         p->options.work.row_count = work.row_count - done < band ? work.row_count - done : band;
         set_parts(p);
         move_planes(p, true);
-        result = trace_parts(p, &p->trace);
+        result = trace_parts(p);
         if (result == CGT_OK)
             result = step_parts(p, UINT32_MAX);
         if (result == CGT_OK)

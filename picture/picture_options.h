@@ -10,7 +10,7 @@
 #include <cgt/picture.h>
 
 /* Copies options with the defaults in place of zeros, and directions of unit length; but for the light that stands for
- * none: see cgt_picture_default_light. Returns CGT_OK, or an error with a sentence. */
+ * none: see cgt_picture_set_default_light. Returns CGT_OK, or an error with a sentence. */
 cgt_result cgt_picture_check_options(const cgt_picture_options *options, cgt_picture_options *checked, char *message,
                                      size_t size);
 

@@ -320,7 +320,9 @@ cgt_result cgt_write_png(const char *path, const cgt_image *image, uint32_t widt
     const uint32_t channels = image && image->channels ? image->channels : 3;
     const uint64_t all = ((uint64_t)width * channels + 1) * height; /* which may be too large for a size_t */
     if (!path || !image || !image->bytes || (channels != 3 && channels != 4) || !width || !height || width > 65536 ||
-        height > 65536 || all > INT32_MAX / 2 || !(image->dpi >= 0 && image->dpi <= 1e6f))
+        height > 65536 || all > INT32_MAX / 2 ||
+        (image->row_stride && image->row_stride < (uint64_t)width * channels) ||
+        !(image->dpi >= 0 && image->dpi <= 1e6f))
         return CGT_ERROR_INVALID_ARGUMENT;
     const size_t row = (size_t)width * channels, total = (size_t)all;
     const size_t most = total + (total / BLOCK + 1) * 8 + 256; /* if all is stored */

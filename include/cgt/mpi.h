@@ -80,7 +80,8 @@ typedef struct cgt_mpi_geometry {
  *   count        of geometries, the same on all ranks; they get the ids 0, 1, and so on
  * Memory: the leaders' shared memory grows by half; it may need room in /dev/shm
  * Errors: as cgt_scene_set_spheres and cgt_scene_commit; INVALID_ARGUMENT (an id or an index is out of range or comes
- *         twice; ranks differ), TOO_LARGE (2^32 - 1 primitives), OUT_OF_MEMORY. There is no scene then */
+ *         twice; a look is of another kind of geometry; ranks differ), TOO_LARGE (2^32 - 1 primitives), OUT_OF_MEMORY.
+ *         There is no scene then */
 CGT_API cgt_result cgt_mpi_gather(cgt_mpi *mpi, const cgt_mpi_geometry *geometries, uint32_t count);
 
 /* Returns the scene of all geometries on leaders, of which rank 0 is one, for bounds, picks and other rays: valid until

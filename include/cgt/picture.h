@@ -44,13 +44,15 @@ typedef struct cgt_look {
     const float *colors;   /* three floats a primitive, or a vertex; NULL (default): none */
     const uint16_t *index; /* entry of the palette, of each primitive or vertex; NULL (default): none */
     const float *palette;  /* three floats an entry; goes with index */
-    bool per_vertex;       /* triangles: colors or index have an element a vertex, interpolated over each triangle */
-    bool halves;           /* capsules: colors or index have two elements each, of the half near either end */
+    /* Triangles: colors or index have an element a vertex, interpolated over each triangle; with CGT_SHADING_BOUNCES
+     * it has the colour of its first vertex. */
+    bool per_vertex;
+    bool halves; /* capsules: colors or index have two elements each, of the half near either end */
     /* `index` with per_vertex: entries below it are one row of colours, along which a hit's entry is interpolated; a
      * hit on a triangle with another entry takes that one. */
     uint32_t palette_steps;
-    /* Triangles: three floats a vertex, of any length; NULL (default): triangles are flat. Light is that of the side
-     * which the eye sees. */
+    /* Triangles: three floats a vertex, of any length; NULL (default), or CGT_SHADING_BOUNCES: triangles are flat.
+     * Light is that of the side which the eye sees. */
     const float *vertex_normals;
     const uint32_t *ids; /* number of each primitive for cgt_linear_pixel; NULL (default): its index */
     /* 1 + the first primitive without outlines, which all behind it lack, too; 0 (default): all have outlines. */
@@ -111,8 +113,8 @@ typedef enum cgt_shading {
 typedef struct cgt_picture_light {
     cgt_light light; /* a direction may have any length but 0 */
     float color[3];  /* brightness of a white surface that faces it, 0 or more */
-    bool shadows;    /* false (default): it shines through everything */
-    /* Of soft shadows: radius of a lamp; of a direction's cone in degrees, below 90; 0 (default): hard ones. */
+    bool shadows;    /* false (default): it shines through everything, but with CGT_SHADING_BOUNCES */
+    /* Of soft shadows: radius of a lamp; of a direction's cone in degrees, at most 89; 0 (default): hard ones. */
     float size;
 } cgt_picture_light;
 
@@ -159,8 +161,8 @@ typedef struct cgt_picture_style {
  * darker towards `up`. */
 typedef struct cgt_picture_bounces {
     uint32_t limit; /* reflections and refractions of a path, at most CGT_PICTURE_MAX_BOUNCES; 0 (default): none */
-    uint32_t material_count;       /* at most 256 */
-    const cgt_material *materials; /* must outlive the picture, and may change before it begins; NULL: all are matt */
+    uint32_t material_count;       /* at most 256; 0 (default): there is one, which is matt */
+    const cgt_material *materials; /* must outlive the picture, and may change before it begins */
     uint32_t shadow_mask;          /* mask of geometries that cast shadows; 0 (default): all */
     uint32_t glass_mask; /* of those that cast light shadows, which leave 0.6 of the light; 0 (default): none */
     float up[3];         /* 0, 0, 0 (default): (0, 1, 0) */
@@ -211,7 +213,8 @@ typedef struct cgt_image {
 } cgt_image;
 
 /* Writes an image's bytes to a PNG file.
- * Errors: INVALID_ARGUMENT (there are no bytes, or 2^30 or more), OUT_OF_MEMORY, FILE (errno tells why) */
+ * Errors: INVALID_ARGUMENT (there are no bytes, or 2^30 or more; row_stride is less than a row), OUT_OF_MEMORY, FILE
+ *         (errno tells why) */
 CGT_API cgt_result cgt_write_png(const char *path, const cgt_image *image, uint32_t width, uint32_t height);
 
 /* ---- Pictures ----------------------------------------------------------------------------------------------- */
@@ -222,7 +225,7 @@ typedef struct cgt_picture cgt_picture;
  *   context   where its scenes are from; must outlive it
  *   options   NULL: the defaults; copied
  *   picture   gets the picture; on an error, one that has the message, or NULL if there is no memory even for that
- * Memory:  the C library's. PLAIN: 10 KB. BOUNCES: 20 bytes a ray, and 3.3 MB + 1.4 MB * (bounces + 1) for each thread
+ * Memory:  the C library's. PLAIN: 10 KB. BOUNCES: 24 bytes a ray, and 3.3 MB + 1.4 MB * (bounces + 1) for each thread
  *          while it traces. Else 24 bytes a ray (a pixel has antialias * antialias), 8 more from the first picture
  *          with triangles, 4 with ambient occlusion, 8 after two steps of it, 1 for each hard light with shadows, 4 for
  *          each soft one, all of it again for each layer; with antialiasing 4 more, and as much as a ray for each
@@ -253,7 +256,8 @@ CGT_API cgt_result cgt_picture_draw(cgt_picture *picture, const cgt_scene *scene
  *   camera      copied
  *   looks       copied, not the arrays that they name: of geometry 0, 1, and so on
  *   look_count  geometries from here on have the default look, {0}
- *   options     of the camera's rays; NULL: the defaults. The statistics must outlive the last read of PLAIN
+ *   options     of the camera's rays; NULL: the defaults. Statistics are of what is opaque, and must outlive the last
+ *               read of PLAIN
  * Building: as cgt_occluded_frame with shadows, as cgt_trace_camera without
  * Errors:   as cgt_trace_camera; STOPPED; OUT_OF_MEMORY; INVALID_ARGUMENT. There is nothing to read then */
 CGT_API cgt_result cgt_picture_begin(cgt_picture *picture, const cgt_scene *scene, const cgt_camera *camera,
@@ -281,7 +285,8 @@ CGT_API uint64_t cgt_picture_get_hits(const cgt_picture *picture);
 
 /* ---- Cameras ------------------------------------------------------------------------------------------------ */
 
-/* Gets a camera's unit vectors to the right, up, and along its axis. An up of 0, 0, 0 stands for (0, 1, 0). */
+/* Gets a camera's unit vectors to the right, up, and along its axis. In this and the calls below zeros stand for the
+ * defaults of cgt_camera. */
 CGT_API void cgt_camera_get_axes(const cgt_camera *camera, float right[3], float up[3], float forward[3]);
 
 /* Gets the direction towards a light over the camera's left shoulder, not of unit length.

@@ -10,13 +10,13 @@
 
 /* ---- Memory ------------------------------------------------------------------------------------------------- */
 
-/* Bytes a ray: t, primitive, geometry and normal; then what the lights need. */
+/* Bytes a ray: t, primitive, geometry and normal, or light; then what the lights need. */
 static size_t bytes_a_ray(const drawing *d)
 {
     const cgt_picture_options *const o = d->options;
     size_t bytes = 6 * sizeof(float);
     if (o->shading == CGT_SHADING_BOUNCES)
-        return 5 * sizeof(float);
+        return bytes;
     bytes += d->keeps_whole ? sizeof(uint32_t) : 0;
     bytes += o->lighting.ambient ? sizeof(float) : 0;
     for (uint32_t i = 0; i < o->lighting.light_count; i++)
@@ -41,11 +41,11 @@ static void lay_out(drawing *d, uint32_t first_row)
     uintptr_t memory = (uintptr_t)d->memory;
     d->t = take(&memory, rays, size, before);
     d->primitive = take(&memory, rays, size, before);
+    d->geometry = take(&memory, rays, size, before);
     if (o->shading == CGT_SHADING_BOUNCES) {
         d->light = take(&memory, rays, sizeof *d->light, before);
         return;
     }
-    d->geometry = take(&memory, rays, size, before);
     for (int c = 0; c < 3; c++)
         d->normal[c] = take(&memory, rays, size, before);
     d->rest_plane = d->keeps_whole ? take(&memory, rays, size, before) : NULL;
@@ -128,8 +128,12 @@ void cgt_draw_free(drawing *d)
 
 /* ---- The camera --------------------------------------------------------------------------------------------- */
 
-static void normalize(float v[3])
+void cgt_draw_normalize(float v[3])
 {
+    int exponent = 0; /* a power of two changes no bits, and keeps squares in the range of float */
+    frexpf(fmaxf(fabsf(v[0]), fmaxf(fabsf(v[1]), fabsf(v[2]))), &exponent);
+    for (int c = 0; c < 3; c++)
+        v[c] = ldexpf(v[c], -exponent);
     const float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     for (int c = 0; c < 3; c++)
         v[c] = length > 0.0f ? v[c] / length : 0.0f;
@@ -142,15 +146,29 @@ static void cross(const float a[3], const float b[3], float out[3])
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+static bool is_zero(const float v[3]) { return v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f; }
+
+cgt_camera cgt_draw_default_view(const cgt_camera *camera)
+{
+    cgt_camera seen = *camera, defaults;
+    cgt_camera_init(&defaults);
+    if (!is_zero(seen.up))
+        return seen;
+    if (is_zero(seen.eye) && is_zero(seen.target))
+        memcpy(seen.eye, defaults.eye, sizeof seen.eye);
+    memcpy(seen.up, defaults.up, sizeof seen.up);
+    return seen;
+}
+
 void cgt_camera_get_axes(const cgt_camera *camera, float right[3], float up[3], float forward[3])
 {
-    static const float default_up[3] = {0.0f, 1.0f, 0.0f};
-    const int has_up = camera->up[0] != 0.0f || camera->up[1] != 0.0f || camera->up[2] != 0.0f;
+    cgt_camera seen = cgt_draw_default_view(camera);
     for (int c = 0; c < 3; c++)
-        forward[c] = camera->target[c] - camera->eye[c];
-    normalize(forward);
-    cross(forward, has_up ? camera->up : default_up, right);
-    normalize(right);
+        forward[c] = seen.target[c] - seen.eye[c];
+    cgt_draw_normalize(forward);
+    cgt_draw_normalize(seen.up);
+    cross(forward, seen.up, right);
+    cgt_draw_normalize(right);
     cross(right, forward, up);
 }
 
@@ -169,8 +187,8 @@ void cgt_draw_half_picture(const cgt_camera *camera, float aspect, float right[3
 /* The rays are for shading: those of the library differ in the last bits. */
 void cgt_draw_begin(drawing *d, const cgt_camera *camera)
 {
-    d->camera = *camera;
-    memcpy(d->origin, camera->eye, sizeof d->origin);
+    d->camera = cgt_draw_default_view(camera);
+    memcpy(d->origin, d->camera.eye, sizeof d->origin);
     cgt_draw_half_picture(camera, (float)d->options->width / (float)d->options->height, d->right, d->up, d->forward);
 }
 
@@ -234,7 +252,8 @@ cgt_result cgt_draw_trace(drawing *d, const cgt_scene *scene, const cgt_trace_op
         frame.v = d->v;
     }
     cgt_draw_forget_light(d);
-    const cgt_result result = cgt_trace_camera(scene, &d->camera, &frame, options);
+    const bool is_hidden = d->behind && !d->camera.mask; /* a layer that the camera does not see */
+    const cgt_result result = is_hidden ? CGT_OK : cgt_trace_camera(scene, &d->camera, &frame, options);
     if (result != CGT_OK)
         return result;
     if (d->behind) {

@@ -37,7 +37,7 @@ struct drawing {
     uint32_t ambient, light_samples;     /* rays of each ray to the sky and to soft lights, once the picture is whole */
     uint32_t samples;                    /* of these, traced so far */
     float *t, *normal[3], *u, *v;
-    float (*light)[3]; /* of rays that bounce, in place of all but t and primitive */
+    float (*light)[3]; /* of rays that bounce, in place of all but t, primitive and geometry */
     uint32_t *primitive, *geometry;
     float *sky, *sky_plane;                       /* share of the sky that the ray's hit sees; NULL: all of it */
     float *reach[CGT_PICTURE_MAX_LIGHTS];         /* share of a soft light that arrives there; NULL: all of it */
@@ -82,6 +82,12 @@ cgt_result cgt_draw_shade(drawing *d);
 
 /* The same without planes. */
 cgt_result cgt_draw_tiles(drawing *d, const cgt_scene *scene, const cgt_trace_options *options);
+
+/* The camera with the library's defaults in place of an eye and an up of zeros. */
+cgt_camera cgt_draw_default_view(const cgt_camera *camera);
+
+/* Makes a vector of any length a unit one; 0, 0, 0 stays. */
+void cgt_draw_normalize(float v[3]);
 
 /* A camera's unit vectors to the right and up, scaled to half a picture, and along its axis. */
 void cgt_draw_half_picture(const cgt_camera *camera, float aspect, float right[3], float up[3], float forward[3]);
@@ -165,7 +171,7 @@ uint32_t cgt_draw_shade_row(const drawing *d, uint32_t y);
 
 /* draw_bounce.c: the same from the light of rays that bounce; and that light. *wrong gets a sentence, or NULL. */
 uint32_t cgt_draw_bounced_row(const drawing *d, uint32_t y);
-cgt_result cgt_draw_bounces(drawing *d, const cgt_scene *scene, const char **wrong);
+cgt_result cgt_draw_bounces(drawing *d, const cgt_scene *scene, const cgt_trace_options *options, const char **wrong);
 
 /* draw_outline.c: how dark the outline at a ray is, 0 to 1. */
 float cgt_draw_outline_at(const drawing *d, uint32_t x, uint32_t y);

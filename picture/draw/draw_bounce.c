@@ -23,10 +23,6 @@ static void color_of(void *user, uint32_t primitive, float rgb[3])
 
 static void set_light(const cgt_picture_options *o, whitted *w, whitted_light *lights)
 {
-    static const float default_up[3] = {0.0f, 1.0f, 0.0f};
-    const float *up =
-        o->bounces.up[0] != 0.0f || o->bounces.up[1] != 0.0f || o->bounces.up[2] != 0.0f ? o->bounces.up : default_up;
-    const float length = sqrtf(up[0] * up[0] + up[1] * up[1] + up[2] * up[2]);
     for (uint32_t i = 0; i < o->lighting.light_count; i++) {
         lights[i].light = o->lighting.lights[i].light;
         memcpy(lights[i].color, o->lighting.lights[i].color, sizeof lights[i].color);
@@ -38,8 +34,11 @@ static void set_light(const cgt_picture_options *o, whitted *w, whitted_light *l
         w->sky[1][c] = o->style.background[c];
         w->sky[0][c] = o->style.background[c] * zenith[c];
         w->rest[c] = 0.5f * o->style.background[c];
-        w->up[c] = up[c] / length;
+        w->up[c] = o->bounces.up[c];
     }
+    if (w->up[0] == 0.0f && w->up[1] == 0.0f && w->up[2] == 0.0f)
+        w->up[1] = 1.0f;
+    cgt_draw_normalize(w->up);
 }
 
 /* The scene of a picture, for Whitted's tracing. */
@@ -59,7 +58,7 @@ static void set_geometries(const drawing *d, whitted_geometry *geometry)
     }
 }
 
-cgt_result cgt_draw_bounces(drawing *d, const cgt_scene *scene, const char **wrong)
+cgt_result cgt_draw_bounces(drawing *d, const cgt_scene *scene, const cgt_trace_options *options, const char **wrong)
 {
     static const cgt_material matte = {.kind = CGT_MATERIAL_MATTE};
     const cgt_picture_options *o = d->options;
@@ -76,7 +75,8 @@ cgt_result cgt_draw_bounces(drawing *d, const cgt_scene *scene, const char **wro
                  .glass_mask = o->bounces.glass_mask,
                  .glass_shadow = glass_shadow,
                  .stop = o->work.stop,
-                 .stop_user = o->work.stop_user};
+                 .stop_user = o->work.stop_user,
+                 .trace = options};
     const cgt_frame frame = cgt_draw_frame(d);
     *wrong = NULL;
     if (!geometry)
@@ -107,8 +107,9 @@ uint32_t cgt_draw_bounced_row(const drawing *d, uint32_t y)
             sum.count += (uint32_t)is_hit;
             sum.cover += (float)is_hit;
             if (d->t[ray] < sum.depth) {
+                const uint32_t *const ids = draw_look(d, d->geometry[ray])->of.ids;
                 sum.depth = d->t[ray];
-                sum.id = d->primitive[ray];
+                sum.id = ids ? ids[d->primitive[ray]] : d->primitive[ray];
             }
         }
         draw_store(d, &sum, x, y);

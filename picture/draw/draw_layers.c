@@ -9,13 +9,13 @@
 
 #include "draw/draw.h"
 
-/* A row of rays. */
+/* A row of rays; without a mask it was not traced. */
 static void hide_row(void *argument, uint32_t index)
 {
     drawing *const d = argument;
     const size_t first = (size_t)(d->first_ray_row + index) * d->ray_width;
     for (size_t k = first; k < first + d->ray_width; k++) {
-        if (d->primitive[k] == CGT_INVALID_ID || d->t[k] < d->behind->t[k])
+        if (d->camera.mask && (d->primitive[k] == CGT_INVALID_ID || d->t[k] < d->behind->t[k]))
             continue;
         d->t[k] = INFINITY;
         d->primitive[k] = d->geometry[k] = CGT_INVALID_ID;

@@ -6,8 +6,8 @@
  *
  * The points follow interleaved sampling (Keller, Heidrich, "Interleaved Sampling", EGWR 2001): of one (0, m,
  * 2)-sequence, Sobol's first two dimensions, each pixel of a 4x4 block takes a run of its own, and the shading averages
- * over 4x4 pixels, wherever they begin: such a window holds each run once, so that 8 rays a pixel act as 128. The runs
- * depend on the pixel's place alone. */
+ * over 5x5 pixels, whose outer rows and columns count half (draw_smooth.c): wherever it lies, such a window holds each
+ * run as often as any other, so that 8 rays a pixel act as 128. The runs depend on the pixel's place alone. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -158,9 +158,12 @@ typedef struct light_rays {
 static int light_rays_init(light_rays *r, const drawing *d, const cgt_picture_light *light, uint32_t samples)
 {
     const uint32_t run = d->light_samples;
-    const size_t hits = (size_t)d->ray_width * ROWS, rays = hits * samples; /* at most 2^20 * 2^8 */
-    const size_t masks = d->light_mask ? rays : 0;
-    float *at = malloc((rays * 9 + masks + hits + 32 * (size_t)run) * sizeof(float) + rays);
+    const size_t hits = (size_t)d->ray_width * ROWS, others = (hits + 32 * (size_t)run) * sizeof(float);
+    const size_t a_ray = (d->light_mask ? 10 : 9) * sizeof(float) + 1;
+    if (hits > (SIZE_MAX - others) / a_ray / samples)
+        return -1;
+    const size_t rays = hits * samples, masks = d->light_mask ? rays : 0;
+    float *at = malloc(rays * a_ray + others);
     r->light = light;
     r->first = d->samples;
     r->samples = samples;

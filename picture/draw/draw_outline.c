@@ -38,7 +38,7 @@ float cgt_draw_outline_at(const drawing *d, uint32_t x, uint32_t y)
     if (look->of.lineless_from && d->primitive[center] >= look->of.lineless_from - 1)
         return 0.0f;
     const float width = fmaxf(1.0f, d->options->style.outline * (float)d->options->antialias);
-    /* Half a ray's width and height in the world at this depth. */
+    /* A ray's width and height in the world at this depth. */
     float size = 0.0f;
     for (int c = 0; c < 3; c++)
         size += d->up[c] * d->up[c];

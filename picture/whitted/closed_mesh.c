@@ -123,14 +123,16 @@ static cgt_result refuse(uint32_t wrong[3], uint32_t triangle, uint32_t from, ui
 cgt_result cgt_find_bodies(const uint32_t *index, uint32_t triangles, const float *position, uint32_t vertices,
                            uint32_t *body, uint32_t *bodies, uint32_t wrong[3])
 {
-    const size_t n = vertices;
+    const size_t n = vertices, most_edges = 3 * (size_t)triangles;
     if (triangles > UINT32_MAX / 3)
         return CGT_ERROR_TOO_LARGE;
     for (uint32_t i = 0; i < 3 * triangles; i++)
         if (index[i] >= vertices)
             return refuse(wrong, i / 3, CGT_INVALID_ID, CGT_INVALID_ID);
+    if (n > SIZE_MAX / sizeof(place) || most_edges > SIZE_MAX / sizeof(edge)) /* a place outgrows three of `same` */
+        return CGT_ERROR_OUT_OF_MEMORY;
     uint32_t *same = malloc(3 * n * sizeof *same + 1);
-    edge *edges = malloc(3 * (size_t)triangles * sizeof *edges + 1);
+    edge *edges = malloc(most_edges * sizeof *edges + 1);
     cgt_result result = CGT_ERROR_OUT_OF_MEMORY;
     if (same && edges && weld(position, vertices, same)) {
         *bodies = number_bodies(index, triangles, vertices, same, same + n, same + 2 * n, body);

@@ -90,6 +90,7 @@ typedef struct whitted {
     bool (*stop)(
         const void *user); /* asked before each tile: other than 0 ends cgt_whitted_frame with STOPPED. NULL: none */
     const void *stop_user;
+    const cgt_trace_options *trace; /* of the camera's rays of cgt_whitted_frame; NULL: the defaults */
 } whitted;
 
 /* Returns NULL, or a sentence that tells what is wrong with materials, geometries, lights or limits: an index of

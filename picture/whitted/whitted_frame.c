@@ -37,10 +37,19 @@ static int is_plain(const cgt_array *a)
     return !a->data || (a->format == CGT_FORMAT_FLOAT && ((uintptr_t)a->data | a->stride) % sizeof(float) == 0);
 }
 
+/* Places and radii are read as they lie there. */
+static bool has_origin_or_types(const whitted_geometry *g)
+{
+    const double *const origin = g->spheres ? g->spheres->origin : g->triangles->origin;
+    return origin[0] != 0.0 || origin[1] != 0.0 || origin[2] != 0.0 || (g->spheres && g->spheres->types.data);
+}
+
 static const char *check_geometry(const whitted *w, const whitted_geometry *g)
 {
     if (!g->spheres == !g->triangles)
         return "a geometry must be either spheres or triangles";
+    if (has_origin_or_types(g))
+        return "a geometry must be without origin and types";
     if (g->spheres ? !is_plain(&g->spheres->centers) || !is_plain(&g->spheres->radii)
                    : !is_plain(&g->triangles->vertices))
         return "coordinates and radii of a geometry must be floats";
@@ -167,7 +176,7 @@ cgt_result cgt_whitted_frame(const whitted *w, const cgt_camera *camera, uint32_
     frame.visitor = visit;
     frame.visitor_user = &job;
     frame.visitor_fields = (uint32_t)CGT_FIELD_T | (uint32_t)CGT_FIELD_PRIMITIVE | (uint32_t)CGT_FIELD_GEOMETRY;
-    cgt_result result = cgt_trace_camera(w->scene, camera, &frame, NULL);
+    cgt_result result = cgt_trace_camera(w->scene, camera, &frame, w->trace);
     while (job.idle) {
         whitted_memory *m = job.idle;
         job.idle = m->next;

@@ -104,6 +104,9 @@ static void gather_badly(void)
     MISTAKE(s.geometry[1].spheres = &s.spheres, "geometry 1: either spheres or triangles or capsules");
     MISTAKE((s.spheres.radii = cgt_floats(radii, 0), s.spheres.types = cgt_uint8s(types, 0), s.spheres.type_count = 2),
             "geometry 0: type 2 of primitive 3: there are 2");
+    MISTAKE(s.look.halves = true, "geometry 0: a look's halves are for capsules");
+    MISTAKE(s.look.per_vertex = true, "geometry 0: a look's per_vertex and vertex_normals are for triangles");
+    MISTAKE(s.look.vertex_normals = center[0], "geometry 0: a look's per_vertex and vertex_normals are for triangles");
     if (ranks > 1) { /* they differ */
         MISTAKE(s.count = 1, "ranks have from 1 to 2 geometries");
         MISTAKE(s.spheres.mask = 2, "geometry 0: ranks differ");

@@ -84,7 +84,7 @@ TEST(a_camera_that_cannot_fit_is_refused)
 {
     static const float ball[4] = {0, 0, 0, 1}, bad[4] = {NAN, 0, 0, 1}, far[4] = {3e38f, 0, 0, 1};
     static const uint8_t types[1] = {1}; /* of one */
-    const cgt_camera camera = {.eye = {0, 0, 5}}, nowhere = {0}, along = {.eye = {0, 5, 0}};
+    const cgt_camera camera = {.eye = {0, 0, 5}}, nowhere = {.up = {0, 1, 0}}, along = {.eye = {0, 5, 0}};
     const cgt_spheres good = {.count = 1, .centers = cgt_floats(ball, 0), .radius = 1.0f};
     const cgt_spheres none[] = {{0},
                                 {.count = 1},
@@ -143,6 +143,17 @@ TEST(a_fit_in_parts_is_a_fit)
     }
 }
 
+TEST(heights_are_those_of_balls_of_any_size)
+{
+    static const float ball[3] = {0, 0, 0}, radii[3] = {1e-25f, 1.0f, 1e25f};
+    for (int i = 0; i < 3; i++) {
+        const cgt_spheres spheres = {.count = 1, .centers = cgt_floats(ball, 0), .radius = radii[i]};
+        cgt_camera camera = {.projection = CGT_PROJECTION_ORTHOGRAPHIC};
+        assert_int_equal(cgt_camera_fit_spheres(&camera, WIDTH, HEIGHT, &spheres), CGT_OK);
+        assert_near(camera.height / radii[i], 2.08, 1e-4);
+    }
+}
+
 TEST(a_fit_lasts_all_around)
 {
     static const float ball[4] = {6, 0, 0, 1};
@@ -154,8 +165,12 @@ TEST(a_fit_lasts_all_around)
     cgt_camera_fit_add(fit, (double[]){-6, 0, 0}, 1.0);
     assert_int_equal(cgt_camera_fit_apply(fit, &camera), CGT_OK);
     cgt_camera_fit_release(fit);
-    for (int i = 0; i < 12; i++, cgt_camera_orbit(&camera, 30.0))
+    for (int i = 0; i < 12; i++) {
+        const float before = camera.eye[0];
         find(&camera, &spheres);
+        cgt_camera_orbit(&camera, 30.0);
+        assert_true(camera.eye[0] != before);
+    }
     assert_int_equal(cgt_camera_fit_create(&camera, WIDTH, HEIGHT, INFINITY, &fit), CGT_ERROR_INVALID_ARGUMENT);
     assert_null(fit);
     assert_int_equal(cgt_camera_fit_create(NULL, WIDTH, HEIGHT, 0.0, &fit), CGT_ERROR_INVALID_ARGUMENT);
@@ -175,6 +190,32 @@ TEST(an_orbit_goes_around_the_target)
     assert_near(forward[1], -1.0, 1e-6);
     assert_near(right[0], -1.0, 1e-6);
     assert_near(up[2], 1.0, 1e-6);
+}
+
+/* Zeros are the library's view; lengths whose squares no float holds are lengths. */
+TEST(defaults_and_far_eyes_look_along_the_axis)
+{
+    static const cgt_camera cameras[] = {{.fov = 0},
+                                         {.eye = {0, 0, 1e-30f}},
+                                         {.eye = {0, 0, 1e20f}, .up = {0, 1e30f, 0}},
+                                         {.eye = {0, 0, 5}, .up = {0, 1e-30f, 0}}};
+    static const float ball[3] = {1, 2, 3};
+    const cgt_spheres spheres = {.count = 1, .centers = cgt_floats(ball, 0), .radius = 1.0f};
+    for (size_t i = 0; i < sizeof cameras / sizeof *cameras; i++) {
+        static const float wanted[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+        float axis[3][3], light[3];
+        cgt_camera camera = cameras[i];
+        cgt_camera_get_axes(&camera, axis[0], axis[1], axis[2]);
+        for (int k = 0; k < 9; k++)
+            assert_near(axis[k / 3][k % 3], wanted[k / 3][k % 3], 1e-6);
+        cgt_camera_get_key_light(&camera, WIDTH, HEIGHT, light);
+        assert_near(light[1], 0.7, 1e-6);
+        assert_int_equal(cgt_camera_fit_spheres(&camera, WIDTH, HEIGHT, &spheres), CGT_OK);
+        see(&camera, &spheres);
+        camera = cameras[i];
+        cgt_camera_orbit(&camera, 90.0);
+        assert_true(camera.eye[0] > 0.9e-30f && fabsf(camera.eye[2]) < 1e-6f * camera.eye[0]);
+    }
 }
 
 SUITE(NULL, NULL)

@@ -775,6 +775,13 @@ TEST(layers_are_mixed_by_depth)
     add_walls(&s, 8.0f, 4.0f);
     draw(&s);
     assert_near(p->r, mixed(0.8f, 0.25f, 0.1f, 0.5f, 0.5f), 1e-6);
+    const cgt_image image = image_of(&s);
+    cgt_camera camera;
+    set_camera(&camera);
+    camera.mask = 1 | 4; /* without the red wall */
+    assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, looks, 4, &image, NULL), CGT_OK);
+    assert_near(p->r, 0.5 * 0.1 + 0.5 * 0.5, 1e-6);
+    assert_near(p->depth, 16.0, 1e-4);
     tear_down(&s);
     set_up(&s, 2, NULL);
     add_walls(&s, 8.0f, -1.0f); /* one is below the floor */
@@ -1041,8 +1048,12 @@ TEST(mirrors_and_glass_bounce)
     assert_near(s.pixels[at(0.1f, 0.1f)].r, 0.5 * 0.8 * (1.0 - 0.65 * 0.24606), 1e-4); /* half the sky, a bit up */
     assert_true(s.pixels[at(0.1f, 0.1f)].b < 0.01f);
     both[0].material = 2;
-    assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, both, 2, &image, NULL), CGT_OK);
-    assert_int_equal(s.pixels[at(0.1f, 0.1f)].id, 0);
+    both[0].ids = (const uint32_t[2]){7, 8};
+    cgt_trace_statistics traced;
+    const cgt_trace_options trace = {.statistics = &traced};
+    assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, both, 2, &image, &trace), CGT_OK);
+    assert_true(traced.rays == PIXELS && traced.hits == PIXELS);
+    assert_int_equal(s.pixels[at(0.1f, 0.1f)].id, 7);
     assert_near(s.pixels[at(0.1f, 0.1f)].g, 0.25 * 0.25, 1e-5); /* the floor behind it, in the shadow */
     uint8_t whole[3 * PIXELS];
     memcpy(whole, s.rgb, sizeof whole);
@@ -1066,6 +1077,16 @@ TEST(mirrors_and_glass_bounce)
     assert_int_equal(cgt_scene_set_capsules(s.scene, NULL, &capsules), CGT_OK);
     assert_int_equal(cgt_scene_commit(s.scene), CGT_OK);
     expect_error(&s, cgt_picture_draw(s.picture, s.scene, &camera, both, 1, &image, NULL), "spheres or triangles");
+    static const uint8_t types[2] = {0, 0};
+    cgt_spheres typed = {.count = 2, .centers = cgt_floats(s.ball[0], 16), .radii = cgt_floats(s.ball[0] + 3, 16)};
+    for (int i = 0; i < 2; i++) {
+        typed.origin[1] = i ? 0.0 : 1.0;
+        typed.types = i ? cgt_uint8s(types, 0) : (cgt_array){0};
+        typed.type_count = (uint32_t)i;
+        assert_int_equal(cgt_scene_set_spheres(s.scene, &(uint32_t){BALL}, &typed), CGT_OK);
+        assert_int_equal(cgt_scene_commit(s.scene), CGT_OK);
+        expect_error(&s, cgt_picture_draw(s.picture, s.scene, &camera, both, 1, &image, NULL), "origin and types");
+    }
     tear_down(&s);
 }
 

@@ -161,13 +161,14 @@ TEST(what_cannot_be_written_is_refused)
     uint8_t bytes[12] = {0};
     const cgt_image image = {.bytes = bytes}, nothing = {0}, grey = {.bytes = bytes, .channels = 1},
                     dense = {.bytes = bytes, .dpi = 2e6f}, unknown = {.bytes = bytes, .dpi = NAN},
-                    four = {.bytes = bytes, .channels = 4};
+                    four = {.bytes = bytes, .channels = 4}, narrow = {.bytes = bytes, .row_stride = 5};
     assert_int_equal(cgt_write_png(NULL, &image, 2, 2), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(cgt_write_png(PATH, NULL, 2, 2), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(cgt_write_png(PATH, &nothing, 2, 2), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(cgt_write_png(PATH, &grey, 2, 2), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(cgt_write_png(PATH, &dense, 2, 2), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(cgt_write_png(PATH, &unknown, 2, 2), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_write_png(PATH, &narrow, 2, 2), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(cgt_write_png(PATH, &image, 0, 2), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(cgt_write_png(PATH, &image, 65537, 1), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(cgt_write_png(PATH, &image, 65536, 65536), CGT_ERROR_INVALID_ARGUMENT);
