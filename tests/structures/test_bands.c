@@ -81,7 +81,8 @@ TEST(statistics_cover_bands)
     cgt_context_release(context);
 }
 
-/* Tasks that run at once have scratch memory of their own, in whatever order they come: the thread sanitizer sees it. */
+/* Tasks that run at once have scratch memory of their own, in whatever order they come, as the thread sanitizer
+ * sees. */
 TEST(lights_through_bands_from_threads)
 {
     enum { CLOUD = 500, STRAYS = 5, POINTS = 10 * CGT_RAYS_CHUNK };

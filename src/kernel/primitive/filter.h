@@ -27,9 +27,9 @@ CGT_SPU_INLINE vmask filter_second_root(vmask inside, vfloat t_min, vfloat end, 
     return second;
 }
 
-/* Whether a ray that hits one of two primitives hits the other at the same t, whichever it is. Capsules with exchanged ends
- * are one surface, but their t may round to neighbouring floats, which an end of the range tells apart; not 0, since the
- * sign is right. */
+/* Whether a ray that hits one of two primitives hits the other at the same t. Capsules with exchanged ends are one
+ * surface, but their t may round to neighbouring floats, which an end of the range tells apart; not 0, since the sign
+ * is right. */
 CGT_SPU_INLINE bool filter_are_copies(const cgt_primitive *a, const cgt_primitive *b, float t_min, float t_max)
 {
     return cgt_same_surface(a, b) && (a->kind != CGT_KIND_CAPSULES || (t_min == 0 && t_max == INFINITY) ||
