@@ -158,14 +158,32 @@ const char *settings_next_line(const char *line)
 
 size_t settings_name_length(const char *line) { return strcspn(line, " \n"); }
 
-void settings_print_part(FILE *to, const char *lines, int of_figure)
+/* Whether a line's name is a figure's option. */
+static int is_of_figure(const char *line)
 {
     char name[64];
-    for (const char *line = lines; *line; line = settings_next_line(line)) {
-        snprintf(name, sizeof name, "%.*s", (int)settings_name_length(line), line);
-        if ((cgt_figure_find_row(name) != NULL) == of_figure)
-            fprintf(to, "%.*s\n", (int)strcspn(line, "\n"), line);
+    snprintf(name, sizeof name, "%.*s", (int)settings_name_length(line), line);
+    return cgt_figure_find_row(name) != NULL;
+}
+
+size_t settings_copy_part(const char *lines, int of_figure, char *to)
+{
+    size_t used = 0;
+    for (const char *line = lines, *next; *line; line = next) {
+        next = settings_next_line(line);
+        if (is_of_figure(line) != of_figure)
+            continue;
+        memcpy(to + used, line, (size_t)(next - line));
+        used += (size_t)(next - line);
     }
+    return used;
+}
+
+void settings_print_part(FILE *to, const char *lines, int of_figure)
+{
+    for (const char *line = lines; *line; line = settings_next_line(line))
+        if (is_of_figure(line) == of_figure)
+            fprintf(to, "%.*s\n", (int)strcspn(line, "\n"), line);
 }
 
 /* ---- Writing ------------------------------------------------------------------------------------------------ */

@@ -32,9 +32,13 @@ int settings_check(const option_row *row, const char *value, void *options, char
 char *settings_read_figure(const char *path, int without_size, char *left_out, size_t left_out_size, char *error,
                            size_t error_size);
 
-/* Of such lines: the next; the letters of a line's name; those whose names are a figure's options, or the others. */
+/* Of such lines: the next; the letters of a line's name. */
 const char *settings_next_line(const char *line);
 size_t settings_name_length(const char *line);
+
+/* Copies or prints those whose names are a figure's options, or the others. to: as long as `lines`; returns the length,
+ * without an end. */
+size_t settings_copy_part(const char *lines, int of_figure, char *to);
 void settings_print_part(FILE *to, const char *lines, int of_figure);
 
 /* Writes a file of lines "name = value", whole or not at all. Returns 0, or -1 with a sentence. */

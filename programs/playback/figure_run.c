@@ -9,23 +9,16 @@
 #include <string.h>
 
 #include "common/program.h"
-#include "options/option_row.h"
+#include "common/settings_file.h"
 #include "trajectory/trajectory_status.h"
 
 cgt_result figure_run_set(cgt_figure *figure, const char *settings)
 {
-    char *const text = calloc(strlen(settings) + 1, 1), name[64];
-    size_t used = 0;
-    cgt_result result = CGT_ERROR_OUT_OF_MEMORY;
-    for (const char *line = settings; text && *line;) {
-        const size_t length = strcspn(line, "\n") + 1;
-        snprintf(name, sizeof name, "%.*s", (int)strcspn(line, " \n"), line);
-        if (cgt_figure_find_row(name))
-            used += (size_t)snprintf(text + used, length + 1, "%.*s", (int)length, line);
-        line += line[length - 1] ? length : length - 1;
-    }
-    if (text)
-        result = cgt_figure_set_lines(figure, text);
+    char *const text = malloc(strlen(settings) + 1);
+    if (!text)
+        return CGT_ERROR_OUT_OF_MEMORY;
+    text[settings_copy_part(settings, 1, text)] = '\0';
+    const cgt_result result = cgt_figure_set_lines(figure, text);
     free(text);
     return result;
 }

@@ -16,22 +16,6 @@ static void add_text(renderer *r, const char *key, const char *value)
         r->texts[r->text_count++] = (png_text){key, value};
 }
 
-/* Those of the settings that are not the figure's, which has its own. Returns the length. */
-static size_t copy_other_lines(const char *settings, char *to)
-{
-    size_t used = 0;
-    char name[64];
-    for (const char *line = settings, *next; *line; line = next) {
-        next = settings_next_line(line);
-        snprintf(name, sizeof name, "%.*s", (int)settings_name_length(line), line);
-        if (cgt_figure_find_row(name))
-            continue;
-        memcpy(to + used, line, (size_t)(next - line));
-        used += (size_t)(next - line);
-    }
-    return used;
-}
-
 /* The settings, with what was chosen, so that the picture can be made again. */
 static int describe(renderer *r)
 {
@@ -47,7 +31,7 @@ static int describe(renderer *r)
         program_error("out of memory");
         return -1;
     }
-    size_t used = copy_other_lines(settings, text);
+    size_t used = settings_copy_part(settings, 0, text); /* the figure has its own */
     if (!o->reading.has_origin && figure_is_moved(r->figure))
         used +=
             (size_t)snprintf(text + used, ORIGIN_SIZE, "origin = %.15g,%.15g,%.15g\n", origin[0], origin[1], origin[2]);
