@@ -34,17 +34,24 @@ static int append(settings_arguments *to, const char *text)
     return 0;
 }
 
-/* The first row that begins with a name, which may be shortened, as on the command line; NULL: there is none. */
-static const option_row *find_row(const char *name)
+/* The row of a name, which may be shortened, as on the command line: that of the whole name, else the first that begins
+ * so; NULL: there is none. *matches gets how many begin so. */
+static const option_row *find_row(const char *name, size_t length, int *matches)
 {
     const option_row *found = NULL;
-    for (size_t i = 0; i < render_option_table()->count && *name; i++) {
+    *matches = 0;
+    for (size_t i = 0; i < render_option_table()->count && length; i++) {
         const option_row *const row = &render_option_table()->rows[i];
-        if (row->name && strncmp(row->name, name, strlen(name)) == 0 && (!found || strcmp(row->name, name) == 0))
+        if (!row->name || strncmp(row->name, name, length) != 0)
+            continue;
+        if (!found || !row->name[length])
             found = row;
+        ++*matches;
     }
-    return found && strcmp(found->name, "settings") != 0 ? found : NULL;
+    return found;
 }
+
+static int is_settings(const option_row *row) { return row && strcmp(row->name, "settings") == 0; }
 
 /* A whole name's value is checked here, where the line is known. */
 static int check_option(const option_row *row, const char *value, char *error, size_t size)
@@ -60,8 +67,9 @@ static int check_option(const option_row *row, const char *value, char *error, s
 static int append_option(void *user, const char *name, const char *value, char *error, size_t size)
 {
     settings_arguments *const to = user;
-    const option_row *const row = find_row(name);
-    if (!row) {
+    int matches;
+    const option_row *const row = find_row(name, strlen(name), &matches);
+    if (!row || is_settings(row)) {
         snprintf(error, size, "\"%s\" is no option that a settings file may have", name);
         return -1;
     }
@@ -78,24 +86,14 @@ static int append_option(void *user, const char *name, const char *value, char *
     return failed ? -1 : 0;
 }
 
-/* Whether an option's name, which may be shortened as long as one alone begins so, is that of settings files. */
-static int names_settings(const char *name, size_t length)
-{
-    int matches = 0;
-    for (size_t i = 0; i < render_option_table()->count; i++) {
-        const char *const known = render_option_table()->rows[i].name;
-        matches += known && strncmp(known, name, length) == 0;
-    }
-    return matches == 1 && strncmp("settings", name, length) == 0;
-}
-
 /* The file that an argument names: in itself or as the next one, which *takes tells; NULL for other arguments. */
 static const char *settings_path(int argc, char **argv, int i, int *takes)
 {
     const size_t length = strncmp(argv[i], "--", 2) == 0 ? strcspn(argv[i] + 2, "=") : 0;
     const char *const end = argv[i] + 2 + length;
+    int matches;
     *takes = 1;
-    if (!length || !names_settings(argv[i] + 2, length))
+    if (!length || !is_settings(find_row(argv[i] + 2, length, &matches)) || matches != 1)
         return NULL;
     if (*end == '=')
         return end + 1;
