@@ -161,7 +161,7 @@ mutate() {
 }
 
 caught=0 survived=0 broken=0 absent=0
-state=$(git ls-files --cached --others --exclude-standard -z | xargs -0 -r sha256sum 2>/dev/null | sha256sum)
+state=$(scripts/code_hash.sh)
 [ -f "$dir/results.tsv" ] && [ "$(head -n 1 "$dir/results.tsv")" = "# $state" ] || echo "# $state" >"$dir/results.tsv"
 say() {
     printf '%-15s %-32s %4d s  %s\n' "$1" "$2" "$3" "$4"
