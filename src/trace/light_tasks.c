@@ -154,7 +154,7 @@ static cgt_result run_bands(cgt_light_tasks *tasks)
 
 cgt_result cgt_light_run(cgt_light_tasks *tasks)
 {
-    tasks->step = tasks->scene->in_bands ? 1 : golden_step(tasks->count); /* slots of bands go by running numbers */
+    tasks->step = tasks->scene->in_bands ? 1 : golden_step(tasks->count);
     tasks->again = false;
     tasks->bands = NULL;
     return tasks->scene->in_bands ? run_bands(tasks) : run_structure(tasks);
