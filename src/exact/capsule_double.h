@@ -27,6 +27,10 @@
  * t that is a sum, (m.w + |n| h) / m.m, has in its numerator at most 48 e G N s / h. It is safe where that and the
  * error of m.m are at most 2^-32 of their sizes, and errs by 2^-31 of itself at most. The other one, P / (m.w + |n| h),
  * has the error of P instead of that of m.m.
+ * A normal is across the axis, over r: an error of t counts |m| / |n| times there. From afar that asks for more than t
+ * itself does. That of the numerator, over m.m, is at most 2^-26 of r where it is at most 2^-27 r |n| M, since M is below
+ * 2 |m|; that of P, over the denominator, where it is at most 2^-27 r |n| / M of that. An error of m.m counts 12 e c / r
+ * at most.
  *   u = (X +- d.n h / |n|) / m.m, or Q / (n.n (X -+ d.n h / |n|)) where that cancels, since (X n.n)^2 - (d.n)^2 n.n E =
  * n.n m.m Q: in the same way, d.n h / |n| within (6 e D N h + 24 e |d.n| G s / h) / |n|.
  * No term leaves the range of double: roots of n.n and E are taken apart.
@@ -44,16 +48,20 @@
 #define CGT_CAPSULE_SCALE_LOSS (16 * CGT_DOUBLE_U * 0x1p32)
 #define CGT_CAPSULE_PRODUCT_LOSS (16 * CGT_DOUBLE_U * 0x1p32)
 
+#define CGT_CAPSULE_PLACE_SHARE 0x1p5
+
 #define CGT_CAPSULE_U_LOSS 0x1p32
 
 #define CAPSULE_NAME(name) cgt_capsule_double_##name
 #define CAPSULE_REAL double
 #define CAPSULE_ABS(x) fabs(x)
 #define CAPSULE_ROOT(x) sqrt(x)
+#define CAPSULE_LESS(x, y) ((x) < (y) ? (x) : (y))
 #include "exact/capsule_terms.h"
 #undef CAPSULE_NAME
 #undef CAPSULE_REAL
 #undef CAPSULE_ABS
 #undef CAPSULE_ROOT
+#undef CAPSULE_LESS
 
 #endif

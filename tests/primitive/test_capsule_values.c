@@ -154,6 +154,76 @@ TEST(most_hits_are_by_vectors)
     assert_true(sum.parts[0] > 0 && sum.parts[1] > 0 && sum.parts[2] > 0);
 }
 
+/* A capsule of radius 1 near the origin of the world that a ray from afar touches: t is right long before the place on
+ * the capsule is. */
+static void touch_from_afar(test_random *r, float data[7], truth_ray *ray)
+{
+    const double inside = 1 - ldexp(1, -4 - (int)random_below(r, 19));
+    const int away = 12 + (int)random_below(r, 13);
+    float aside[3];
+    double along = 0, square = 0, lean = 0, axis[3], length = 0;
+    random_direction(r, ray->dir);
+    random_direction(r, aside);
+    for (int a = 0; a < 3; a++) {
+        ray->org[a] = -ldexpf(ray->dir[a], away);
+        along -= (double)ray->org[a] * (double)ray->dir[a];
+        square += (double)ray->dir[a] * (double)ray->dir[a];
+        lean += (double)aside[a] * (double)ray->dir[a];
+    }
+    for (int a = 0; a < 3; a++)
+        aside[a] -= (float)(lean / square) * ray->dir[a];
+    for (int a = 0; a < 3; a++) /* across what leads aside, and a little along the ray */
+        axis[a] = (double)aside[(a + 1) % 3] * (double)ray->dir[(a + 2) % 3] -
+                  (double)aside[(a + 2) % 3] * (double)ray->dir[(a + 1) % 3];
+    for (int a = 0; a < 3; a++)
+        length += (double)aside[a] * (double)aside[a];
+    for (int a = 0; a < 3; a++) {
+        const double middle = (double)ray->org[a] + along / square * (double)ray->dir[a] +
+                              inside / sqrt(length) * (double)aside[a];
+        data[a] = (float)(middle - 2 * axis[a] - 0.5 * (double)ray->dir[a]);
+        data[3 + a] = (float)(middle + 2 * axis[a] + 0.5 * (double)ray->dir[a]);
+    }
+    data[6] = 1;
+    ray->t_min = 0;
+    ray->t_max = INFINITY;
+}
+
+static double away_of(const float org[3])
+{
+    return hypot(hypot((double)org[0], (double)org[1]), (double)org[2]);
+}
+
+TEST(normals_of_far_silhouettes)
+{
+    test_random r = random_make(715);
+    double worst = 0;
+    uint32_t hits = 0;
+    for (uint32_t n = test_scaled(20000); n; n--) {
+        oracle_primitive q = {.kind = ORACLE_CAPSULE};
+        truth_ray line;
+        oracle_hit right;
+        double off = 0;
+        touch_from_afar(&r, q.data, &line);
+        if (!oracle_hits(&q, &line, &right))
+            continue;
+        cgt_ray ray = {.t_max = INFINITY};
+        memcpy(ray.line.org, line.org, sizeof line.org);
+        memcpy(ray.line.dir, line.dir, sizeof line.dir);
+        cgt_capsule capsule = {.r = q.data[6]};
+        memcpy(capsule.p, q.data, sizeof capsule.p);
+        memcpy(capsule.q, q.data + 3, sizeof capsule.q);
+        const resolved_capsule got = resolve_capsule_ray(&ray, &capsule);
+        for (int a = 0; a < 3; a++) {
+            const double error = (double)(right.normal[a] - (truth_real)got.normal[a]);
+            off += error * error;
+        }
+        hits++;
+        worst = fmax(worst, sqrt(off) / (0x1p-23 + 0x1p-48 * away_of(line.org)));
+    }
+    print_message("%u hits, normals off by %.2f of their bound\n", hits, worst);
+    assert_true(hits > test_scaled(20000) / 4 && worst <= 1);
+}
+
 /* ---- packets that hit all kinds ---- */
 
 enum { KINDS = 3 };

@@ -16,11 +16,13 @@
 #define CAPSULE_REAL vdouble
 #define CAPSULE_ABS(x) spux_double_abs(x)
 #define CAPSULE_ROOT(x) spux_double_sqrt(x)
+#define CAPSULE_LESS(x, y) spux_double_select(x, y, (x) - (y))
 #include "exact/capsule_terms.h"
 #undef CAPSULE_NAME
 #undef CAPSULE_REAL
 #undef CAPSULE_ABS
 #undef CAPSULE_ROOT
+#undef CAPSULE_LESS
 
 /* The fields of hits; v is 0. */
 typedef struct resolved_capsules {

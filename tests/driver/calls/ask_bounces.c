@@ -203,6 +203,8 @@ static bool is_far_side(const oracle_primitive *p, const judge_ray *n, bool insi
         return n->line.t_max >= 0;
     const double r = radius_of(p), far = (double)m.root[1].t,
                  bound = 0x1p-24 * fabs(far) + 0x1p-46 * m.away * (r / m.half + 1) + 0x1p-149;
+    if (n->line.t_max == INFINITY) /* no float is as far */
+        return far + bound >= 0x1.ffffffp127;
     return fabs((double)n->line.t_max - (far > 0 ? far : 0)) <= bound;
 }
 
@@ -259,7 +261,7 @@ static const char *judge_own(const driver_run *run, const judge_ray *ray, const 
     double off = 0;
     for (uint32_t k = 0; k < right->count; k++) {
         const judge_hit *const h = &run->pool.hit[right->first + k];
-        if (!h->doubtful && (double)h->values.t < (double)ray->line.t_max * (1 - 0x1p-20))
+        if (!h->doubtful && (double)h->values.t < (double)ray->line.t_max * (1 - 0x1p-20) - 0x1p-149)
             return "something is nearer than its own";
     }
     if (!same_bits(hit->t, ray->line.t_max) || hit->uv[1] != 0)

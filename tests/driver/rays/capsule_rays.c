@@ -76,6 +76,11 @@ static void make_line(judge_scene *s, truth_ray *line)
     }
     if (how == 7)
         hard_ray_align(r, at, line);
+    if (how == 7 && random_below(r, 2)) { /* from so far that t is right, and the place on a thin capsule may not be */
+        const float distance = ldexpf(c[6], (int)random_below(r, 40));
+        for (int a = 0; a < 3; a++)
+            line->org[a] = at[a] - distance * line->dir[a];
+    }
     hard_ray_stretch(r, line);
 }
 
