@@ -242,6 +242,12 @@ void cgt_draw_forget_light(drawing *d)
         d->reach[i] = NULL;
 }
 
+static cgt_visit watch_tile(void *user, const cgt_tile *tile)
+{
+    (void)tile;
+    return draw_is_stopped(user) ? CGT_VISIT_STOP : CGT_VISIT_CONTINUE;
+}
+
 cgt_result cgt_draw_trace(drawing *d, const cgt_scene *scene, const cgt_trace_options *options)
 {
     cgt_frame frame = cgt_draw_frame(d);
@@ -250,6 +256,10 @@ cgt_result cgt_draw_trace(drawing *d, const cgt_scene *scene, const cgt_trace_op
             return CGT_ERROR_OUT_OF_MEMORY;
         frame.u = d->u;
         frame.v = d->v;
+    }
+    if (d->options->work.stop) {
+        frame.visitor = watch_tile;
+        frame.visitor_user = d;
     }
     cgt_draw_forget_light(d);
     const bool is_hidden = d->behind && !d->camera.mask; /* a layer that the camera does not see */

@@ -71,6 +71,7 @@ cgt_result cgt_draw_bounces(drawing *d, const cgt_scene *scene, const cgt_trace_
                  .materials = o->bounces.material_count ? o->bounces.material_count : 1,
                  .bounces = o->bounces.limit,
                  .faintest = faintest,
+                 .mask = d->camera.mask,
                  .shadow_mask = o->bounces.shadow_mask,
                  .glass_mask = o->bounces.glass_mask,
                  .glass_shadow = glass_shadow,

@@ -238,19 +238,23 @@ static void append_hit(light_rays *r, const drawing *d, uint32_t x, uint32_t y, 
     r->ray[r->hits++] = (uint32_t)(element - (size_t)y / ROWS * ROWS * d->ray_width);
 }
 
-/* Whether a sphere's hit faces away from the light: the shading leaves it dark, whatever lies in between. Triangles are
+/* Whether a sphere's hit faces so far away from the light that the shading leaves it dark, whatever lies in between,
+ * and its lit neighbours, too: draw_smooth.c averages where normals are less than 25.9 degrees apart. Triangles are
  * shaded by vertex normals and from both sides. */
 static int is_averted(const drawing *d, const cgt_picture_light *l, size_t element, uint32_t x, uint32_t y)
 {
-    float org[3], dir[3], towards = 0.0f;
+    static const float steepest = -0.436f; /* minus the sine of that */
+    float org[3], dir[3], towards = 0.0f, square = 0.0f;
     if (draw_look(d, d->geometry[element])->is_triangles)
         return 0;
     draw_ray(d, x, y, org, dir);
     for (int c = 0; c < 3; c++) {
         const float at = l->light.kind == CGT_LIGHT_POINT ? org[c] + d->t[element] * dir[c] : 0.0f;
-        towards += d->normal[c][element] * (l->light.position[c] - at);
+        const float to = l->light.position[c] - at;
+        towards += d->normal[c][element] * to;
+        square += to * to;
     }
-    return towards <= 0.0f;
+    return towards <= 0.0f && towards * towards >= steepest * steepest * square;
 }
 
 static cgt_result trace_strip(drawing *d, const cgt_scene *scene, light_rays *r, uint32_t y0, float *reach)

@@ -80,6 +80,7 @@ typedef struct whitted {
     uint32_t bounces;       /* at most WHITTED_MAX_BOUNCES; 0: camera rays alone */
     float rest[3];          /* light of paths that end at a limit, in place of what they would see */
     float faintest;         /* paths of which less than this share reaches the eye end; 0: none ends */
+    uint32_t mask;          /* geometries that rays meet; 0: all */
     uint32_t shadow_mask;   /* geometries that cast shadows; 0: all */
     uint32_t glass_mask;    /* those that cast light shadows; 0: none */
     float glass_shadow;     /* the share of light that passes these, whatever lies in the way */

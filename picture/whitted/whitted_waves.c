@@ -265,7 +265,7 @@ static cgt_result trace_wave(const whitted *w, whitted_memory *m, uint32_t bounc
 }
 
 /* Makes rays of the camera from memory->org and dir. */
-static void begin(whitted_memory *m, uint32_t count, float (*light)[3])
+static void begin(const whitted *w, whitted_memory *m, uint32_t count, float (*light)[3])
 {
     memset(m->ray[0], 0, count * sizeof *m->ray[0]);
     for (uint32_t i = 0; i < count; i++) {
@@ -273,6 +273,7 @@ static void begin(whitted_memory *m, uint32_t count, float (*light)[3])
         memcpy(ray->org, m->org[i], sizeof ray->org);
         memcpy(ray->dir, m->dir[i], sizeof ray->dir);
         ray->t_max = INFINITY;
+        ray->mask = w->mask;
         ray->skip_primitive = ray->skip_geometry = CGT_INVALID_ID;
         ray->pixel = m->pixel[i];
         for (int c = 0; c < 3; c++) {
@@ -284,7 +285,7 @@ static void begin(whitted_memory *m, uint32_t count, float (*light)[3])
 
 cgt_result cgt_whitted_shade(const whitted *w, whitted_memory *m, uint32_t count, float (*light)[3])
 {
-    begin(m, count, light);
+    begin(w, m, count, light);
     const cgt_result result = cgt_whitted_surfaces(w, m->ray[0], m->hit, count, m->surface);
     return result ? result : shade_wave(w, m, 0, m->ray[0], count, light);
 }
@@ -297,6 +298,6 @@ cgt_result cgt_whitted_trace(const whitted *w, whitted_memory *m, uint32_t count
         memcpy(m->dir[i], dir[i], sizeof m->dir[i]);
         m->pixel[i] = i;
     }
-    begin(m, count, light);
+    begin(w, m, count, light);
     return trace_wave(w, m, 0, m->ray[0], count, light);
 }

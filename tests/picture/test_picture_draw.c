@@ -8,6 +8,7 @@
 #include "support/test.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -203,6 +204,29 @@ TEST(hard_shadows_fall_where_they_should)
     draw(&s);
     assert_near(s.pixels[at(4.1f, 0.1f)].r, 0.5 * 0.1, 1e-6);
     assert_true(s.pixels[at(-2.0f, 0.1f)].r > lit);
+    tear_down(&s);
+}
+
+/* What lies in the shadow has no light of its own averted side. */
+TEST(averted_sides_lend_no_light)
+{
+    static stage s;
+    set_up(&s, 1, NULL);
+    s.ball[1][0] = 40.0f;
+    s.ball[1][2] = 2.0f;
+    s.ball[1][3] = 36.0f; /* between the light and the ball */
+    s.settings.lighting.lights[0].light.position[0] = 1.0f;
+    s.settings.lighting.lights[0].light.position[2] = 0.1f;
+    s.settings.lighting.lights[0].shadows = true;
+    s.settings.lighting.lights[0].size = 1.0f;
+    draw(&s);
+    for (float y = -0.9f; y < 1.0f; y += 0.1f)
+        for (float x = -0.9f; x < 1.0f; x += 0.1f)
+            if (x * x + y * y < 0.8f)
+                assert_near(s.pixels[at(x, y)].r, 0.0, 1e-9);
+    s.ball[1][0] = 500.0f;
+    draw(&s);
+    assert_true(s.pixels[at(0.5f, 0.1f)].r > 0.1f);
     tear_down(&s);
 }
 
@@ -538,6 +562,64 @@ TEST(a_picture_stops_when_told_to)
     assert_int_equal(length, strlen(message));
     assert_string_equal(message, "the picture was stopped");
     tear_down(&s);
+}
+
+static bool count_asks(const void *user)
+{
+    atomic_fetch_add((atomic_uint *)(uintptr_t)user, 1);
+    return false;
+}
+
+/* The first rays are asked about, too: of a large picture they take seconds. */
+TEST(each_tile_asks_whether_to_stop)
+{
+    static stage s;
+    atomic_uint asks = 0;
+    cgt_camera camera;
+    set_up(&s, 2, NULL);
+    set_camera(&camera);
+    s.settings.antialias = 4;
+    s.settings.work.stop = count_asks;
+    s.settings.work.stop_user = &asks;
+    assert_int_equal(cgt_scene_commit(s.scene), CGT_OK);
+    assert_int_equal(cgt_picture_create(s.context, &s.settings, &s.picture), CGT_OK);
+    assert_int_equal(cgt_picture_begin(s.picture, s.scene, &camera, looks, 4, NULL), CGT_OK);
+    assert_true(asks > 8);
+    tear_down(&s);
+}
+
+/* What the camera does not see is in no mirror either. */
+TEST(bounces_keep_the_mask_of_the_camera)
+{
+    static const cgt_material mirror = {.kind = CGT_MATERIAL_MIRROR, .color = {1, 1, 1}};
+    static stage s;
+    static float seen[2][4 * PIXELS];
+    cgt_camera camera;
+    set_camera(&camera);
+    camera.mask = 1;
+    for (int removed = 0; removed < 2; removed++) {
+        const cgt_image image = image_of(&s);
+        set_up(&s, 1, NULL);
+        set_opaque(&s, 1);
+        const cgt_spheres ball = {
+            .count = 1, .centers = cgt_floats(s.ball[0], 16), .radii = cgt_floats(s.ball[0] + 3, 16), .mask = 2};
+        assert_int_equal(removed ? cgt_scene_remove_geometry(s.scene, BALL)
+                                 : cgt_scene_set_spheres(s.scene, &(uint32_t){BALL}, &ball),
+                         CGT_OK);
+        s.settings.shading = CGT_SHADING_BOUNCES;
+        s.settings.bounces = (cgt_picture_bounces){
+            .limit = 4, .material_count = 1, .materials = &mirror, .shadow_mask = 1};
+        s.settings.style.background[2] = 1.0f;
+        assert_int_equal(cgt_scene_commit(s.scene), CGT_OK);
+        assert_int_equal(cgt_picture_create(s.context, &s.settings, &s.picture), CGT_OK);
+        assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, looks, 4, &image, NULL), CGT_OK);
+        for (int i = 0; i < PIXELS; i++)
+            memcpy(&seen[removed][4 * i], (float[]){s.pixels[i].r, s.pixels[i].g, s.pixels[i].b, s.pixels[i].a},
+                   4 * sizeof(float));
+        tear_down(&s);
+    }
+    assert_memory_equal(seen[0], seen[1], sizeof seen[0]);
+    assert_true(seen[0][4 * at(0.0f, 0.0f) + 2] > 0.2f); /* the sky is there */
 }
 
 /* ---- Steps -------------------------------------------------------------------------------------------------- */
