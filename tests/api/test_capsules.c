@@ -190,4 +190,43 @@ TEST(capsules_move)
     cgt_context_release(context);
 }
 
+/* Capsules whose axis is nothing beside the camera's distance: what says where that is on the screen underflows. */
+TEST(axes_of_denormal_length)
+{
+    enum { WIDTH = 64, HEIGHT = 4 };
+    static const float end[2][3] = {{0, 0x1p-128f, 0}, {0x1p-127f, 0, 0x1p-130f}};
+    static float t[WIDTH * HEIGHT];
+    cgt_camera camera;
+    cgt_frame frame;
+    cgt_camera_init(&camera);
+    camera.eye[2] = 500;
+    camera.projection = CGT_PROJECTION_ORTHOGRAPHIC;
+    camera.height = 16;
+    cgt_frame_init(&frame, WIDTH, HEIGHT);
+    frame.t = t;
+    FOR_EACH_VARIANT (variant)
+        for (int outside = 0; outside < 2; outside++) {
+            cgt_context *context = context_make(1, variant);
+            const cgt_capsules q = {.count = 1,
+                                    .vertex_count = 1,
+                                    .vertices = cgt_floats(end[0], 0),
+                                    .ends = cgt_floats(end[1], 0),
+                                    .radius = outside ? 400.0f : 0x1p24f};
+            cgt_scene *scene = scene_of_capsules(context, NULL, &q);
+            assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_OK);
+            for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+                cgt_single_ray ray = {.t_max = INFINITY};
+                cgt_hit hit;
+                float *const org[3] = {&ray.org[0], &ray.org[1], &ray.org[2]};
+                float *const dir[3] = {&ray.dir[0], &ray.dir[1], &ray.dir[2]};
+                assert_int_equal(
+                    cgt_camera_get_rays(&camera, WIDTH, HEIGHT, i % WIDTH, i / WIDTH, 1, 1, 0, org, dir), CGT_OK);
+                assert_int_equal(cgt_trace_ray(scene, &ray, &hit, NULL), CGT_OK);
+                assert_true(hit.t < INFINITY && same_bits(hit.t, t[i]));
+            }
+            cgt_scene_release(scene);
+            cgt_context_release(context);
+        }
+}
+
 SEEDED_SUITE("test_capsules", NULL, NULL)

@@ -328,8 +328,9 @@ typedef struct tile_strip_columns {
     float from, slope, half, most;
 } tile_strip_columns;
 
-/* Returns false where all columns are to be asked, as the strip is nearly a row or there is none. So
- * roundings stay below 2^-15 of the screen's half, and of a column, of which one more is taken at either side. */
+/* Returns false where all columns are to be asked, as the strip is nearly a row, is as wide as the window, where
+ * numbers may have overflown, or there is none. So roundings stay below 2^-15 of the screen's half, and of a column, of
+ * which one more is taken at either side. */
 CGT_SPU_INLINE bool tile_init_strip_columns(const tile *t, const tile_capsules *s, int k, tile_rect rect,
                                             tile_strip_columns *c)
 {
@@ -344,7 +345,7 @@ CGT_SPU_INLINE bool tile_init_strip_columns(const tile *t, const tile_capsules *
                               .slope = m[2] * unit,
                               .half = s->strip_width[k] * fabsf(unit) + 1,
                               .most = (float)(rect.x1 - rect.x0 + 1)};
-    return true;
+    return c->half < c->most;
 }
 
 /* Places of a pair of rows from *column to *end: whole vectors from the window's first column on. */
