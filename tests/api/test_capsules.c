@@ -229,4 +229,36 @@ TEST(axes_of_denormal_length)
         }
 }
 
+/* Far longer radii than axes, whose squares underflow beside them: a light in such a capsule is hidden outside. */
+TEST(lights_in_thick_capsules)
+{
+    enum { POINTS = 100 };
+    static const float end[2][2][3] = {{{0, 0, 0}, {0, 0, 0}}, {{64, 0x1p-19f, 0}, {1, 0, 0}}};
+    static const float radius[2] = {0x1.4p110f, 0.5f};
+    static float place[3][POINTS];
+    const cgt_capsules q = {.count = 2,
+                            .vertex_count = 2,
+                            .vertices = cgt_floats(end[0][0], 0),
+                            .ends = cgt_floats(end[1][0], 0),
+                            .radii = cgt_floats(radius, 0)};
+    const cgt_light light = {.kind = CGT_LIGHT_POINT, .position = {0x1.8p109f, 0x1.2p109f, 0x1p109f}};
+    const cgt_points points = {.count = POINTS, .position = {place[0], place[1], place[2]}};
+    const cgt_scene_options options = {.structure = CGT_STRUCTURE_LOOSE_GRID};
+    for (uint32_t i = 0; i < POINTS; i++) {
+        place[0][i] = 0x1.3p111f * (1 + 1e-5f * (float)i);
+        place[1][i] = -0x1p112f;
+        place[2][i] = 0x1.6p109f;
+    }
+    FOR_EACH_VARIANT (variant) {
+        cgt_context *context = context_make(1, variant);
+        cgt_scene *scene = scene_of_capsules(context, &options, &q);
+        uint8_t occluded[POINTS] = {0};
+        assert_int_equal(cgt_occluded_points(scene, &light, &points, occluded, NULL), CGT_OK);
+        for (uint32_t i = 0; i < POINTS; i++)
+            assert_int_equal(occluded[i], 1);
+        cgt_scene_release(scene);
+        cgt_context_release(context);
+    }
+}
+
 SEEDED_SUITE("test_capsules", NULL, NULL)

@@ -205,14 +205,16 @@ CGT_SPU_INLINE vmask lane_leave_capsule(const lane_rays *r, const vfloat p[3], c
 }
 
 /* ---- The line alone, in fewer operations ----
- * With m = d x n and c = p - org a line misses the capsule if |m.c| > r |m|. In normalised space, with |d_a| <= 2 and A
- * at least |c| and the error of the origin: n is off by u |n_a|, and m by three times that in its factors, 6 u |n| in
- * each component, none of which is above 2 |n|. Then m.c is within
+ * With m = d x n and c = p - org a line misses the capsule if |m.c| > r |m|. In normalised space, with |d_a| <= 2, the
+ * largest |n_a| from 1 to 2, which a power of 2 brings it to, and A at least |c| and the error of the origin: n is off by
+ * u |n_a|, and m by three times that in its factors, 6 u |n| in each component, none of which is above 2 |n|. Then m.c
+ * is within
  *   2 |n| A (3 u + u + 3 u)
  * by m, by c and by the sum, and |m| within 3 u sqrt(3) 2 |n| < 11 u |n|. So it misses where
  *   |m.c| > r |m| + 20 u |n| (A + r) + 2^-116,
- * which has more than 4 u of either for its own roundings, and the last term for products that underflow, times A. Both
- * sides are squared, where what underflows is below 2^-118. */
+ * which has more than 4 u of either for its own roundings and for products of m that underflow, however far away the
+ * capsule is, and the last term for those of m.c. Both sides are squared: where m.m underflows, r |m| is far below
+ * u |n| r, and where r^2 does, it is below 2^-60. */
 
 /* What that takes of a capsule: n, 20 u |n| and r^2, rounded up. */
 CGT_SPU_INLINE void lane_strip_init(const vfloat p[3], const vfloat q[3], vfloat radius, vfloat n[3], vfloat *error,
@@ -220,6 +222,11 @@ CGT_SPU_INLINE void lane_strip_init(const vfloat p[3], const vfloat q[3], vfloat
 {
     for (int a = 0; a < 3; a++)
         n[a] = spu_sub(q[a], p[a]);
+    const vfloat most = spux_max(spux_max(spux_abs(n[0]), spux_abs(n[1])), spux_abs(n[2]));
+    const vuint exponent = spu_and((vuint)most, spux_vuint(0x7f800000));
+    const vfloat inverse = (vfloat)spu_sub(spux_vuint(0x7f000000), exponent);
+    for (int a = 0; a < 3; a++)
+        n[a] = spu_mul(n[a], inverse);
     *error = spu_mul(lane_sum(n), spux_vfloat(20 * FILTER_ROUNDOFF));
     *square = spu_mul(spu_mul(radius, radius), spux_vfloat(1 + 0x1p-20f));
 }
