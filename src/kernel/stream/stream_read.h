@@ -38,16 +38,18 @@ CGT_SPU_INLINE void stream_bounds_add_place(vfloat *low, vfloat *high, vfloat or
     *high = spux_select(*high, spux_max(*high, spu_add(place, margin)), lanes);
 }
 
-/* Adds rays. starts: they begin elsewhere than at their origins. */
+/* Adds rays. starts: they begin elsewhere than at their origins; where that is beyond all that can be reached, infinity
+ * times a direction of 0 would be no number. */
 CGT_SPU_INLINE void stream_bounds_add(stream_bounds *b, const vfloat org[3], const vfloat dir[3], vfloat first,
                                       vfloat last, vmask lanes, bool starts)
 {
+    const vfloat begin = spux_min(first, spux_vfloat(BVH_MAX_T));
     for (int a = 0; a < 3; a++) {
         b->org_low[a] = spux_select(b->org_low[a], spux_min(b->org_low[a], org[a]), lanes);
         b->org_high[a] = spux_select(b->org_high[a], spux_max(b->org_high[a], org[a]), lanes);
         stream_bounds_add_place(&b->end_low[a], &b->end_high[a], org[a], dir[a], last, lanes);
         if (starts)
-            stream_bounds_add_place(&b->start_low[a], &b->start_high[a], org[a], dir[a], first, lanes);
+            stream_bounds_add_place(&b->start_low[a], &b->start_high[a], org[a], dir[a], begin, lanes);
     }
 }
 

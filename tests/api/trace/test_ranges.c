@@ -3,6 +3,7 @@
  *
  * Ends of ranges next to a hit, where two formulas round its t to neighbouring floats, or to 0: all calls agree. No
  * profile of tests/driver: its random cases do not meet them. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -116,15 +117,15 @@ TEST(behind_the_origin_by_nothing)
 /* Capsules with exchanged ends are one surface, but the t of the first one rounds to before the range. */
 TEST(exchanged_ends_at_the_range)
 {
-    static const float end[2][3] = {{-1, 0, 0.25f}, {107, 0, 81.25f}};
+    static const float end[2][3] = {{-0x1.4bcp-1f, -0x1.064p-1f, -0x1.78p+0f}, {0x1.ca2p+0f, 0x1.8cep+0f, 0x1.22p+2f}};
     static const uint32_t index[4] = {0, 1, 1, 0};
     const cgt_capsules capsules = {.count = 2,
                                    .indices = cgt_uint32s(index, 0),
                                    .vertices = cgt_floats(end[0], 0),
                                    .vertex_count = 2,
-                                   .radius = 0x1p-23f};
-    const cgt_camera camera = {.eye = {0, 0, 0x1p-48f}, .target = {0, 0, 1}, .up = {0, 1, 0}};
-    const cgt_single_ray ray = {.org = {0, 0, 0x1p-48f}, .dir = {0, 0, 1}, .t_min = 0x1.fffffcp-1f};
+                                   .radius = 0x1.4p-5f};
+    const cgt_camera camera = {.eye = {0, 0, 0x1p-30f}, .target = {0, 0, 1}, .up = {0, 1, 0}};
+    const cgt_single_ray ray = {.org = {0, 0, 0x1p-30f}, .dir = {0, 0, 1}, .t_min = 0x1.8p-6f};
     cgt_context *context = context_make(1, NULL);
     for (size_t k = 0; k < TEST_COUNT(structures); k++) {
         const cgt_scene_options options = {.structure = structures[k]};
@@ -136,6 +137,42 @@ TEST(exchanged_ends_at_the_range)
         cgt_scene_release(scene);
     }
     cgt_context_release(context);
+}
+
+/* Rays that begin beyond all reach, and do not move along an axis, take nothing from those beside them. */
+TEST(beginning_nowhere)
+{
+    enum { ROW = 32, MANY = 60 * ROW };
+    static const float unit = 0x1p-20f; /* the scene's: in that of a tree they begin at infinity */
+    static float sphere[ROW][4], org[3][MANY], dir[3][MANY], t_min[MANY], t[MANY];
+    static uint8_t occluded[MANY];
+    const cgt_spheres spheres = spheres_of(sphere, ROW);
+    const cgt_rays rays = {
+        .count = MANY, .org = {org[0], org[1], org[2]}, .dir = {dir[0], dir[1], dir[2]}, .t_min = t_min};
+    const cgt_hits hits = {.t = t};
+    for (uint32_t i = 0; i < ROW; i++) {
+        sphere[i][0] = unit * (float)i;
+        sphere[i][3] = 0.25f * unit;
+    }
+    for (uint32_t i = 0; i < MANY; i++) {
+        org[0][i] = unit * (float)(i % ROW);
+        org[2][i] = 5 * unit;
+        dir[2][i] = -1;
+        t_min[i] = i % ROW < 8 || i % ROW > 24 || i % 3 ? 0 : FLT_MAX;
+    }
+    FOR_EACH_VARIANT (variant) {
+        cgt_context *context = context_make(1, variant);
+        cgt_scene *scene;
+        assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
+        assert_int_equal(cgt_scene_set_spheres(scene, NULL, &spheres), CGT_OK);
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+        assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
+        assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, NULL), CGT_OK);
+        for (uint32_t i = 0; i < MANY; i++)
+            assert_true(t[i] == (t_min[i] == 0 ? 4.75f * unit : INFINITY) && occluded[i] == (t_min[i] == 0));
+        cgt_scene_release(scene);
+        cgt_context_release(context);
+    }
 }
 
 SEEDED_SUITE("test_ranges", NULL, NULL)
