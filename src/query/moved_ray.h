@@ -183,6 +183,16 @@ static inline bool moved_ray_clip(const moved_ray *r, int a, double low, double 
     return *near <= *far;
 }
 
+/* Whether the origin is near the scene, and known well enough. */
+static inline bool moved_ray_is_known(const moved_ray *r)
+{
+    bool known = true;
+    for (int a = 0; a < 3; a++)
+        known = known && fabs(r->org[a]) <= 2 * MOVED_NEAR &&
+                r->org_error[a] <= fabs(r->org[a]) * 0x1p-52 + MOVED_MAX_LOST;
+    return known;
+}
+
 /* Moves a valid ray's origin to where it is at a t; NULL: next to the scene, if it is far from there. */
 static inline moved_state moved_ray_init_at(moved_ray *r, const cgt_committed_scene *committed_scene,
                                             const cgt_ray *ray, const float *at)
@@ -199,12 +209,13 @@ static inline moved_state moved_ray_init_at(moved_ray *r, const cgt_committed_sc
     moved_ray_set_range(r, ray->t_min, ray->t_max);
     r->near = r->near_out;
     r->far = r->far_out;
+    if (at && !moved_ray_is_known(r)) /* far from the scene, which may lie beyond MOVED_END of there */
+        return MOVED_TOO_FAR;
     for (int a = 0; a < 3; a++)
         if (!moved_ray_clip(r, a, low[a], high[a], &r->near, &r->far))
             return MOVED_MISS;
-    for (int a = 0; a < 3; a++)
-        if (!(fabs(r->org[a]) <= 2 * MOVED_NEAR) || !(r->org_error[a] <= fabs(r->org[a]) * 0x1p-52 + MOVED_MAX_LOST))
-            return MOVED_TOO_FAR;
+    if (!moved_ray_is_known(r))
+        return MOVED_TOO_FAR;
     moved_ray_round(r);
     return MOVED_READY;
 }

@@ -175,4 +175,46 @@ TEST(beginning_nowhere)
     }
 }
 
+/* Rays that end together among small spheres, and one from far away that goes on beyond by as much as half its way. */
+TEST(ending_far_behind)
+{
+    enum { MANY = 512, FAR = 300 };
+    static float sphere[MANY][4], org[3][MANY], dir[3][MANY], t_min[MANY], t_max[MANY];
+    static uint8_t occluded[MANY];
+    const cgt_spheres spheres = spheres_of(sphere, MANY);
+    const cgt_rays rays = {.count = MANY,
+                           .org = {org[0], org[1], org[2]},
+                           .dir = {dir[0], dir[1], dir[2]},
+                           .t_min = t_min,
+                           .t_max = t_max};
+    for (uint32_t i = 0; i < MANY; i++) {
+        const float unit = i < MANY / 2 ? 0x1p-18f : 1;
+        sphere[i][0] = 0.2f * unit * (float)(i % 8);
+        sphere[i][1] = 0.2f * unit * (float)(i / 8 % 8);
+        sphere[i][2] = 0.2f * unit * (float)(i / 64);
+        sphere[i][3] = 0x1p-24f;
+    }
+    for (uint32_t i = 0; i < MANY; i++) {
+        for (int a = 0; a < 3; a++) {
+            org[a][i] = i == FAR ? sphere[9][a] : 0.7f + 0.1f * (float)((int)(i % 7) * (a + 1));
+            dir[a][i] = sphere[9][a] - org[a][i];
+        }
+        t_max[i] = 1;
+    }
+    org[2][FAR] = -0x1p105f;
+    dir[2][FAR] = 0x1p105f;
+    t_min[FAR] = 0.25f;
+    t_max[FAR] = 1.25f;
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene;
+    assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_set_spheres(scene, NULL, &spheres), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, NULL), CGT_OK);
+    for (uint32_t i = 0; i < MANY; i++)
+        assert_int_equal(occluded[i], 1);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
 SEEDED_SUITE("test_ranges", NULL, NULL)
