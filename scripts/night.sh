@@ -10,6 +10,7 @@
 #   cpu-NAMES      the tests of release with CGT_DISABLE_CPU=NAMES: what a CPU without them runs
 #   cpus-N         the tests of release on a machine that claims to have N processors (tests/night/cpus.c)
 #   bugs           scripts/mutations.sh: every planted bug
+#   seeds          build/release/tests/hits: all profiles again and again, each time by another seed (SEEDS_SECONDS=7200)
 #   fuzz-TARGET    scripts/fuzz.sh: an hour of CPU for each target (FUZZ_SECONDS=3600)
 #   soak           build/release/tests/soak: pictures for hours (SOAK_SECONDS=7200)
 #   --left         prints the parts that are left
@@ -20,10 +21,11 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 night=build/night account=build/night/parts.tsv table=docs/reports/nights.md
 fuzz_seconds=${FUZZ_SECONDS:-3600} soak_seconds=${SOAK_SECONDS:-7200}
+seeds_seconds=${SEEDS_SECONDS:-7200}
 
 suites=(release clang native sanitize tsan aarch64 ppc64 spu i686 armhf riscv64 s390x musl windows wasm web packages)
 targets=(scene hits cliffs cell cell_kd spe trajectory formats mesh)
-parts=("${suites[@]/#/suite-}" cpu-avx512 "cpu-avx512,avx2" cpus-4 cpus-64 bugs "${targets[@]/#/fuzz-}" soak)
+parts=("${suites[@]/#/suite-}" cpu-avx512 "cpu-avx512,avx2" cpus-4 cpus-64 bugs seeds "${targets[@]/#/fuzz-}" soak)
 
 [ -z "$(git status --porcelain)" ] || { echo "night.sh: commit first: a night is of a revision" >&2; exit 2; }
 revision=$(git log -1 --format=%H -- . ":!$table") # the row of a night is no other revision
@@ -59,12 +61,26 @@ run_release() { # with variables of the environment
     return $status
 }
 
+# Rounds of the driver, each by a seed that no round had before. A failure prints the line that reruns it.
+run_seeds() {
+    local build=build/release round=0 status=0 end=$((SECONDS + seeds_seconds)) seed
+    scripts/test.sh quick && cmake --build $build --target hits || return 1
+    while [ $SECONDS -lt $end ]; do
+        seed=$(date +%s)$round
+        sed -nE 's/^ *\{?\.name = "([a-z]+)",.*/\1/p' tests/driver/profiles.c |
+            CGT_TEST_SEED=$seed CGT_TEST_SCALE=4 xargs -P "$(nproc)" -I {} $build/tests/hits {} || status=1
+        echo "$((++round)) rounds, the last one by the seed $seed"
+    done
+    return $status
+}
+
 run_part() {
     case $1 in
     suite-*) scripts/test.sh --whole "${1#suite-}" ;;
     cpu-*) run_release "CGT_DISABLE_CPU=${1#cpu-}" ;;
     cpus-*) run_release "CGT_TEST_CPUS=${1#cpus-}" "LD_PRELOAD=$PWD/build/release/tests/libcgt_cpus.so" ;;
     bugs) scripts/mutations.sh ;;
+    seeds) run_seeds ;;
     fuzz-*) scripts/fuzz.sh "$fuzz_seconds" "${1#fuzz-}" ;;
     soak) scripts/test.sh quick && cmake --build build/release --target soak &&
         build/release/tests/soak "$soak_seconds" ;;
@@ -111,6 +127,7 @@ for part in "${@:-${parts[@]}}"; do
     case $result-$part in
     failed-*) status=1 ;;
     *-fuzz-*) [ "$fuzz_seconds" -ge 3600 ] || result=short ;;
+    *-seeds) [ "$seeds_seconds" -ge 7200 ] || result=short ;;
     *-soak) [ "$soak_seconds" -ge 7200 ] || result=short ;;
     *) [[ $(amount_of "$part") != '0 passed'* ]] || result=skipped ;;
     esac
