@@ -94,13 +94,13 @@ static inline CAPSULE_NAME(value) CAPSULE_NAME(root)(const CAPSULE_NAME(terms) *
     const CAPSULE_REAL extent = e->length_n * e->reach, axes = e->length_d * e->length_n, loss = e->size / half,
                        place = CGT_CAPSULE_PLACE_SHARE * length * e->r,
                        product_error = extent * extent * CGT_CAPSULE_PRODUCT_LOSS;
-    return (CAPSULE_NAME(value)){.sum = turned / e->mm,
-                                 .other = e->product / -turned,
-                                 .margin = CAPSULE_LESS(large, place * e->length_m) -
-                                           extent * axes * loss * CGT_CAPSULE_SUM_LOSS,
-                                 .sum_margin = e->mm - e->length_m * axes * CGT_CAPSULE_SCALE_LOSS,
-                                 .other_margin = CAPSULE_LESS(CAPSULE_ABS(e->product) - product_error,
-                                                              place * large - product_error * e->length_m)};
+    return (CAPSULE_NAME(value)){
+        .sum = turned / e->mm,
+        .other = e->product / -turned,
+        .margin = CAPSULE_LESS(large, place * e->length_m) - extent * axes * loss * CGT_CAPSULE_SUM_LOSS,
+        .sum_margin = e->mm - e->length_m * axes * CGT_CAPSULE_SCALE_LOSS,
+        .other_margin =
+            CAPSULE_LESS(CAPSULE_ABS(e->product) - product_error, place * large - product_error * e->length_m)};
 }
 
 /* u of a root of the cylinder: the sum where x and lean have one sign. */

@@ -188,8 +188,8 @@ static inline bool moved_ray_is_known(const moved_ray *r)
 {
     bool known = true;
     for (int a = 0; a < 3; a++)
-        known = known && fabs(r->org[a]) <= 2 * MOVED_NEAR &&
-                r->org_error[a] <= fabs(r->org[a]) * 0x1p-52 + MOVED_MAX_LOST;
+        known =
+            known && fabs(r->org[a]) <= 2 * MOVED_NEAR && r->org_error[a] <= fabs(r->org[a]) * 0x1p-52 + MOVED_MAX_LOST;
     return known;
 }
 

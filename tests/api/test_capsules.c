@@ -204,29 +204,29 @@ TEST(axes_of_denormal_length)
     camera.height = 16;
     cgt_frame_init(&frame, WIDTH, HEIGHT);
     frame.t = t;
-    FOR_EACH_VARIANT (variant)
-        for (int outside = 0; outside < 2; outside++) {
-            cgt_context *context = context_make(1, variant);
-            const cgt_capsules q = {.count = 1,
-                                    .vertex_count = 1,
-                                    .vertices = cgt_floats(end[0], 0),
-                                    .ends = cgt_floats(end[1], 0),
-                                    .radius = outside ? 400.0f : 0x1p24f};
-            cgt_scene *scene = scene_of_capsules(context, NULL, &q);
-            assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_OK);
-            for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
-                cgt_single_ray ray = {.t_max = INFINITY};
-                cgt_hit hit;
-                float *const org[3] = {&ray.org[0], &ray.org[1], &ray.org[2]};
-                float *const dir[3] = {&ray.dir[0], &ray.dir[1], &ray.dir[2]};
-                assert_int_equal(
-                    cgt_camera_get_rays(&camera, WIDTH, HEIGHT, i % WIDTH, i / WIDTH, 1, 1, 0, org, dir), CGT_OK);
-                assert_int_equal(cgt_trace_ray(scene, &ray, &hit, NULL), CGT_OK);
-                assert_true(hit.t < INFINITY && same_bits(hit.t, t[i]));
-            }
-            cgt_scene_release(scene);
-            cgt_context_release(context);
+    FOR_EACH_VARIANT(variant)
+    for (int outside = 0; outside < 2; outside++) {
+        cgt_context *context = context_make(1, variant);
+        const cgt_capsules q = {.count = 1,
+                                .vertex_count = 1,
+                                .vertices = cgt_floats(end[0], 0),
+                                .ends = cgt_floats(end[1], 0),
+                                .radius = outside ? 400.0f : 0x1p24f};
+        cgt_scene *scene = scene_of_capsules(context, NULL, &q);
+        assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_OK);
+        for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+            cgt_single_ray ray = {.t_max = INFINITY};
+            cgt_hit hit;
+            float *const org[3] = {&ray.org[0], &ray.org[1], &ray.org[2]};
+            float *const dir[3] = {&ray.dir[0], &ray.dir[1], &ray.dir[2]};
+            assert_int_equal(cgt_camera_get_rays(&camera, WIDTH, HEIGHT, i % WIDTH, i / WIDTH, 1, 1, 0, org, dir),
+                             CGT_OK);
+            assert_int_equal(cgt_trace_ray(scene, &ray, &hit, NULL), CGT_OK);
+            assert_true(hit.t < INFINITY && same_bits(hit.t, t[i]));
         }
+        cgt_scene_release(scene);
+        cgt_context_release(context);
+    }
 }
 
 /* Far longer radii than axes, whose squares underflow beside them: a light in such a capsule is hidden outside. */
@@ -249,7 +249,8 @@ TEST(lights_in_thick_capsules)
         place[1][i] = -0x1p112f;
         place[2][i] = 0x1.6p109f;
     }
-    FOR_EACH_VARIANT (variant) {
+    FOR_EACH_VARIANT(variant)
+    {
         cgt_context *context = context_make(1, variant);
         cgt_scene *scene = scene_of_capsules(context, &options, &q);
         uint8_t occluded[POINTS] = {0};

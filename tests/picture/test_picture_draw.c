@@ -607,8 +607,8 @@ TEST(bounces_keep_the_mask_of_the_camera)
                                  : cgt_scene_set_spheres(s.scene, &(uint32_t){BALL}, &ball),
                          CGT_OK);
         s.settings.shading = CGT_SHADING_BOUNCES;
-        s.settings.bounces = (cgt_picture_bounces){
-            .limit = 4, .material_count = 1, .materials = &mirror, .shadow_mask = 1};
+        s.settings.bounces =
+            (cgt_picture_bounces){.limit = 4, .material_count = 1, .materials = &mirror, .shadow_mask = 1};
         s.settings.style.background[2] = 1.0f;
         assert_int_equal(cgt_scene_commit(s.scene), CGT_OK);
         assert_int_equal(cgt_picture_create(s.context, &s.settings, &s.picture), CGT_OK);

@@ -178,8 +178,8 @@ static void touch_from_afar(test_random *r, float data[7], truth_ray *ray)
     for (int a = 0; a < 3; a++)
         length += (double)aside[a] * (double)aside[a];
     for (int a = 0; a < 3; a++) {
-        const double middle = (double)ray->org[a] + along / square * (double)ray->dir[a] +
-                              inside / sqrt(length) * (double)aside[a];
+        const double middle =
+            (double)ray->org[a] + along / square * (double)ray->dir[a] + inside / sqrt(length) * (double)aside[a];
         data[a] = (float)(middle - 2 * axis[a] - 0.5 * (double)ray->dir[a]);
         data[3 + a] = (float)(middle + 2 * axis[a] + 0.5 * (double)ray->dir[a]);
     }
@@ -188,10 +188,7 @@ static void touch_from_afar(test_random *r, float data[7], truth_ray *ray)
     ray->t_max = INFINITY;
 }
 
-static double away_of(const float org[3])
-{
-    return hypot(hypot((double)org[0], (double)org[1]), (double)org[2]);
-}
+static double away_of(const float org[3]) { return hypot(hypot((double)org[0], (double)org[1]), (double)org[2]); }
 
 TEST(normals_of_far_silhouettes)
 {

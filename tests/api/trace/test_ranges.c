@@ -160,7 +160,8 @@ TEST(beginning_nowhere)
         dir[2][i] = -1;
         t_min[i] = i % ROW < 8 || i % ROW > 24 || i % 3 ? 0 : FLT_MAX;
     }
-    FOR_EACH_VARIANT (variant) {
+    FOR_EACH_VARIANT(variant)
+    {
         cgt_context *context = context_make(1, variant);
         cgt_scene *scene;
         assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
