@@ -143,8 +143,10 @@ typedef enum cgt_kd_traversal {
  * differ between variants. Rays through a loose grid or a BVH, of scenes in bands (cgt_scene_commit) and of extreme
  * magnitudes are decided exactly whatever it says. */
 typedef enum cgt_triangle_test {
-    CGT_TRIANGLE_TEST_AUTO = 0,        /* edge functions with error bounds; what they leave open is decided exactly */
-    CGT_TRIANGLE_TEST_WATERTIGHT,      /* edge functions of the ray's Pluecker coordinates */
+    CGT_TRIANGLE_TEST_AUTO = 0, /* edge functions with error bounds; what they leave open is decided exactly */
+    /* Edge functions of the ray's Pluecker coordinates, which lose as many bits as the scene is farther from the origin
+     * than large */
+    CGT_TRIANGLE_TEST_WATERTIGHT,
     CGT_TRIANGLE_TEST_MOLLER_TRUMBORE, /* Moeller, Trumbore 1997 */
     CGT_TRIANGLE_TEST_ACCELERATED      /* projected onto the main plane (Wald 2004), from 48 bytes a triangle */
 } cgt_triangle_test;

@@ -40,6 +40,9 @@ typedef struct cgt_exact_root {
 /* True where the line through the ray meets the closed triangle and is not parallel to its plane. */
 bool cgt_exact_line_hits_triangle(const cgt_exact_ray *ray, const cgt_triangle *triangle);
 
+/* The sign of dir.n: 1 where the ray leaves the side that the triangle's normal points away from, 0 along its plane. */
+int cgt_exact_triangle_side(const cgt_exact_ray *ray, const cgt_triangle *triangle);
+
 /* In how many places the line through the ray meets the sphere: 0 where D < 0, 1 where D = 0, or 2. */
 int cgt_exact_sphere_roots(const cgt_exact_ray *ray, cgt_sphere sphere);
 

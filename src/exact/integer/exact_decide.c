@@ -18,6 +18,13 @@ bool cgt_exact_line_hits_triangle(const cgt_exact_ray *ray, const cgt_triangle *
     return above != below; /* of one sign or zero; all zero is a line in the plane, or no area */
 }
 
+int cgt_exact_triangle_side(const cgt_exact_ray *ray, const cgt_triangle *triangle)
+{
+    cgt_exact_plane plane;
+    cgt_exact_plane_terms(ray, triangle, &plane);
+    return plane.determinant.sign;
+}
+
 int cgt_exact_sphere_roots(const cgt_exact_ray *ray, cgt_sphere sphere)
 {
     cgt_exact_quadratic quadratic;

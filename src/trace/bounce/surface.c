@@ -15,6 +15,9 @@
 
 #include <math.h>
 
+#include "exact/integer/exact.h"
+#include "exact/triangle_double.h"
+
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 bool cgt_double_ray_init(const float org[3], const float dir[3], cgt_double_ray *ray)
@@ -133,6 +136,24 @@ static double round_t(const cgt_primitive *q, const cgt_double_ray *ray, float t
     return root;
 }
 
+/* Whether a ray comes from where a triangle's normal points to, `along` being its direction times the normal, which errs
+ * by 10 e of the product of all lengths (triangle_double.h). */
+static bool is_front(const cgt_triangle *q, const cgt_double_ray *ray, double along, const double e[2][3])
+{
+    double size[3] = {0, 0, 0};
+    cgt_exact_ray line;
+    for (int a = 0; a < 3; a++) {
+        size[0] += fabs(e[0][a]);
+        size[1] += fabs(e[1][a]);
+        size[2] += fabs(ray->dir[a]);
+        line.org[a] = (float)ray->org[a];
+        line.dir[a] = (float)ray->dir[a];
+    }
+    if (fabs(along) > CGT_TRIANGLE_DOUBLE_ERROR * size[0] * size[1] * size[2])
+        return along < 0;
+    return cgt_exact_triangle_side(&line, q) < 0;
+}
+
 static double triangle_t(const cgt_triangle *q, const cgt_double_ray *ray, float t, bounce_surface *surface)
 {
     double e[2][3], to[3], *normal = surface->normal;
@@ -144,7 +165,7 @@ static double triangle_t(const cgt_triangle *q, const cgt_double_ray *ray, float
     for (int a = 0; a < 3; a++)
         normal[a] = e[0][(a + 1) % 3] * e[1][(a + 2) % 3] - e[0][(a + 2) % 3] * e[1][(a + 1) % 3];
     const double along = dot(normal, ray->dir), plane = dot(normal, to) / along;
-    surface->front = along < 0.0;
+    surface->front = is_front(q, ray, along, (const double(*)[3])e);
     surface->u = 0;
     /* A plane nearly along the ray: t, which is exact but for its rounding, is the better one. */
     return fabs(plane - (double)t) <= 0x1p-20 * fabs((double)t) ? plane : (double)t;

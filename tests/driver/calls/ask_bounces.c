@@ -179,12 +179,13 @@ static bool is_direction(const judge_ray *ray, const meeting *m, const float dir
 static bool is_surface(const judge_ray *ray, const oracle_primitive *p, const meeting *m, const surface *s)
 {
     const oracle_hit *const right = &m->root[m->at];
-    double off = 0, along = 0, place = 0;
+    double off = 0, place = 0;
+    truth_real along = 0;
     for (int a = 0; a < 3; a++) {
         const truth_real at = (truth_real)ray->line.org[a] + right->t * (truth_real)ray->line.dir[a];
         off = fmax(off, fabs((double)(right->normal[a] - (truth_real)s->normal[a])));
         place = fmax(place, fabs((double)(at - (truth_real)s->position[a])) - 0x1p-50 * fabs((double)at));
-        along += (double)right->normal[a] * (double)ray->line.dir[a];
+        along += right->normal[a] * (truth_real)ray->line.dir[a];
     }
     if (p->kind == ORACLE_TRIANGLE) /* the place follows t where the plane is nearly along the ray */
         return off <= 0x1p-30 && s->front == (along < 0);

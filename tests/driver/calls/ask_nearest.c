@@ -246,8 +246,9 @@ static void count_fast(driver_run *run, uint32_t i, const full_hit *h)
     run->count[COUNT_FAST_OFF] += fmax(way / (double)run->scene.scale, fmax(uv, normal)) > 1e-3;
 }
 
-/* Whether a ray from well inside a closed mesh, and not at the begin of its range, leaves it at an edge: the watertight test of single precision may leak
- * beside vertices alone, where more than two triangles meet. */
+/* Whether a ray from well inside a closed mesh, and not at the begin of its range, leaves it at an edge: the watertight
+ * test of single precision may leak beside vertices alone, where more than two triangles meet. Far from the origin t may
+ * be anything. */
 static bool leaks_at_edge(driver_run *run, uint32_t i, const full_hit *h)
 {
     const judge_truth *const right = &run->right[i];
@@ -256,11 +257,11 @@ static bool leaks_at_edge(driver_run *run, uint32_t i, const full_hit *h)
         return false;
     const judge_hit *const hit = &run->pool.hit[right->first];
     const double u = (double)hit->values.uv[0], v = (double)hit->values.uv[1];
-    const double way = (double)hit->values.t * length_of(ray->line.dir);
+    const double way = (double)hit->values.t * length_of(ray->line.dir), size = (double)run->scene.scale;
     run->count[COUNT_WATERTIGHT]++;
     if (h->primitive != CGT_INVALID_ID || hit->doubtful || ray->line.t_max < INFINITY ||
-        (double)hit->values.t * (1 - 0x1p-8) < (double)ray->line.t_min || way < 0.01 * (double)run->scene.scale ||
-        !judge_inside(&run->scene, ray->line.org, ray->mask, true))
+        (double)hit->values.t * (1 - 0x1p-8) < (double)ray->line.t_min || way < 0.01 * size ||
+        length_of(ray->line.org) > 1024 * size || !judge_inside(&run->scene, ray->line.org, ray->mask, true))
         return false;
     run->count[COUNT_LEAKS]++;
     return hit->has_values && fmax(fmax(u, v), 1 - u - v) < 0.999;
