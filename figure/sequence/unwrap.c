@@ -4,7 +4,7 @@
  * Whole molecules; see unwrap.h. Bonds join trees of spheres, each with the number of edges by which it is to be moved
  * against its parent: R. E. Tarjan, "Applications of Path Compression on Balanced Trees", J. ACM 26 (1979), 690-715.
  * The root of a tree is the first of its spheres in the file. Without image flags spheres are followed from frame to
- * frame: each by the edges that its share of the box jumps, whatever the box does. */
+ * frame: each to the nearest image by its shares of the box, whatever the box does. */
 #include "data/frame_access.h"
 #include "sequence/unwrap.h"
 
@@ -259,12 +259,15 @@ static int reserve_past(unwrap_past *past, size_t count)
 }
 
 /* The edges to add to sphere i, which was number k of the frame before. */
-static void follow_sphere(unwrapping *u, const double share[3], uint32_t i, uint32_t k)
+static void follow_sphere(unwrapping *u, const periodic_box *box, const double share[3], uint32_t i, uint32_t k)
 {
-    for (int e = 0; e < 3; e++) {
-        const double jump = share[e] - u->past.share[k][e];
-        u->move[i][e] = u->past.move[k][e] - (isfinite(jump) ? rint(jump) : 0.0);
-    }
+    double jump[3], step[3] = {0.0, 0.0, 0.0}, count[3];
+    for (int e = 0; e < 3; e++)
+        jump[e] = share[e] - u->past.share[k][e];
+    add_edges(box, jump, step);
+    cgt_periodic_box_count(box, step, count);
+    for (int e = 0; e < 3; e++)
+        u->move[i][e] = u->past.move[k][e] - count[e];
 }
 
 /* From the box's corner: those of far boxes whose edges change would jump. */
@@ -292,7 +295,7 @@ static int follow(unwrapping *u, const periodic_box *box, const cgt_trajectory_f
         memset(u->move[i], 0, sizeof u->move[i]);
         share_of(box, f, i, share);
         if (k != UINT32_MAX)
-            follow_sphere(u, share, i, k);
+            follow_sphere(u, box, share, i, k);
     }
     if (reserve_past(past, f->count) || cgt_id_match_remember(&past->spheres, f->id, f->count))
         return -1;
