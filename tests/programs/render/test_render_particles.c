@@ -429,8 +429,7 @@ TEST(arrows_point_along_their_vectors)
  * and through it, 2 rests, 3 is there from frame 2 on. Ids are told in another order each time. */
 static cgt_trajectory_frame make_moved(uint32_t k, uint32_t ids[4], const double edge[3][3])
 {
-    cgt_trajectory_frame f = {
-        .kind = CGT_TRAJECTORY_SPHERES, .step = 10 * (int64_t)k, .number = k, .xyzr = xyzr, .id = ids};
+    cgt_trajectory_frame f = {.kind = CGT_TRAJECTORY_SPHERES, .step = 10, .number = k, .xyzr = xyzr, .id = ids};
     const float x = fmodf(8.25f + 0.5f * (float)k, 10.0f), share = fmodf(0.87f + 0.05f * (float)k, 1.0f);
     const float places[4][3] = {{x, 1, 1}, {5.0f + 2.0f * share, 5, 10.0f * share}, {3, 3, 3}, {1, 8, (float)k}};
     f.count = k < 2 ? 3 : 4;
@@ -498,7 +497,7 @@ TEST(trails_follow_ids_and_break_at_the_boundary)
     cgt_particles_free(&p);
 }
 
-/* Steps that do not increase begin another run; a place that is no number ends a trail; colours and radii are the
+/* Numbers that do not increase begin another run, whatever the steps do; a place that is no number ends a trail; colours and radii are the
  * rules'. */
 TEST(trails_end_where_nothing_is_known)
 {
