@@ -388,6 +388,64 @@ TEST(bonds_cross_boundaries_edge_by_edge)
     }
 }
 
+/* Bonds of carbon that are guessed in cells so small that a pair has more than one, or an atom is bonded to its own
+ * image: as many as both ends are in the images. */
+TEST(guessed_bonds_go_to_all_images)
+{
+    static const struct {
+        double edge[3][3];
+        float places[2][3];
+        uint32_t count, images[3], bonds;
+        float length[3];
+    } rows[] = {
+        /* graphene: 1 a cell, 2 more to other cells, of which those at the outer boundary are missing */
+        {{{2.46, 0, 0}, {-1.23, 2.13042, 0}, {0, 0, 15}},
+         {{0, 0, 7}, {0, 1.42028f, 7}},
+         2,
+         {4, 4, 1},
+         16 + 12 + 9,
+         {1.23f, 1.42f, 0}},
+        /* places that are written in other cells */
+        {{{2.46, 0, 0}, {-1.23, 2.13042, 0}, {0, 0, 15}},
+         {{2.46f, 0, 7}, {-2.46f, 1.42028f, 7}},
+         2,
+         {4, 4, 1},
+         8 + 6 + 9,
+         {1.23f, 1.42f, 0}},
+        /* a chain of atoms, each bonded to its own images */
+        {{{1.4, 0, 0}, {0, 9, 0}, {0, 0, 9}}, {{0.1f, 1, 1}}, 1, {5, 1, 1}, 4, {1.4f, 0, 0}},
+        /* two bonds of half an edge */
+        {{{2.8, 0, 0}, {0, 9, 0}, {0, 0, 9}}, {{0, 1, 1}, {1.4f, 1, 1}}, 2, {3, 1, 1}, 3 + 2, {1.4f, 0, 0}},
+        /* a cell so large that there is one bond */
+        {{{9, 0, 0}, {0, 9, 0}, {0, 0, 9}}, {{8.5f, 1, 1}, {0.9f, 1, 1}}, 2, {3, 1, 1}, 2, {1.4f, 0, 0}},
+    };
+    static const uint32_t ends[2] = {0, 1};
+    static const uint8_t carbon[2] = {6, 6};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        cgt_trajectory_frame frame = make_frame(3);
+        float length[3];
+        frame.count = rows[i].count;
+        frame.bonds = rows[i].count - 1;
+        frame.bond = ends;
+        frame.bond_source = CGT_TRAJECTORY_BONDS_GUESSED;
+        frame.element = carbon;
+        frame.angstrom = 1.0f;
+        memcpy(frame.box_edge, rows[i].edge, sizeof frame.box_edge);
+        for (int e = 0; e < 3; e++)
+            frame.periodic[e] = 1;
+        for (int k = 0; k < 2; k++)
+            memcpy(xyzr + 4 * k, rows[i].places[k], sizeof rows[i].places[k]);
+        const uint32_t found = bonds_of_two(&frame, rows[i].images, length);
+        if (found != rows[i].bonds)
+            fail_msg("row %zu: %u bonds, not %u", i, found, rows[i].bonds);
+        for (int c = 0; c < 3; c++)
+            assert_near(length[c], rows[i].length[c], 0.01);
+        frame.bond_source = CGT_TRAJECTORY_BONDS_LISTED; /* a list is what it is */
+        assert_true(bonds_of_two(&frame, rows[i].images, length) <=
+                    rows[i].images[0] * rows[i].images[1] * (rows[i].count - 1));
+    }
+}
+
 TEST(arrows_point_along_their_vectors)
 {
     static const char *const formulas[3] = {"1", "0", "if(index == 4, 3, 0)"};
