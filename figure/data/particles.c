@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "data/frame_access.h"
+
 enum { BLOCK = 256 };
 
 int cgt_particle_rules_are_empty(const particle_rules *r)
@@ -127,20 +129,11 @@ static void add_images(particles *p, const uint32_t images[3], const cgt_traject
     }
 }
 
-static int has_box(const cgt_trajectory_frame *f)
-{
-    int has = 0;
-    for (int i = 0; i < 3; i++)
-        for (int c = 0; c < 3; c++)
-            has |= f->box_edge[i][c] != 0.0;
-    return has;
-}
-
 int cgt_particles_select(particles *p, const particle_rules *r, const cgt_trajectory_frame *f, const uint16_t *index,
                          char *error, size_t error_size)
 {
     const uint32_t copies = r->images[0] * r->images[1] * r->images[2];
-    if (copies > 1 && !has_box(f)) {
+    if (copies > 1 && !frame_has_box(f)) {
         snprintf(error, error_size, "--images: frame %llu has no box", (unsigned long long)f->number);
         return -1;
     }

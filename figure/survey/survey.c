@@ -236,7 +236,7 @@ static void survey_kind(survey *s, const cgt_trajectory_frame *f, uint32_t i)
 static void survey_box(survey *s, const frame_sequence *sequence, const camera_directions *fit)
 {
     const cgt_trajectory_frame *f = &sequence->frame;
-    const int has_box = f->box_edge[0][0] != 0.0 || f->box_edge[1][1] != 0.0 || f->box_edge[2][2] != 0.0;
+    const int has_box = frame_has_box(f);
     for (int corner = 0; corner < 8 && has_box; corner++) {
         double at[3], moved[3] = {0.0, 0.0, 0.0};
         for (int c = 0; c < 3; c++) {
