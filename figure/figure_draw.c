@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "data/molecule/element_symbols.h"
+#include "options/numbers.h"
 #include "text/labels.h"
 
 static void set_first_light(const cgt_figure *figure, cgt_picture_light *light)
@@ -209,7 +210,7 @@ int cgt_figure_choose_overlay(cgt_figure *figure)
     if (!v->font)
         return -1;
     v->title = o->title;
-    v->time = !o->time || *o->time ? o->time : "t = {time}";
+    v->time = o->time;
     v->axes = o->axes;
     v->scale = o->scale;
     v->coloring = &figure->coloring;
@@ -290,6 +291,20 @@ void cgt_figure_draw_overlay(cgt_figure *figure)
     cgt_camera_get_axes(&figure->camera, frame.right, frame.up, frame.forward);
     const double depth = get_depth(&figure->camera, &frame, figure->camera.target, middle);
     frame.pixel = 2.0 * half_height(&figure->camera, depth) / (double)c.height;
+    if (!figure->has_time_told && cgt_overlay_lacks_time(&figure->overlay, &frame)) {
+        figure->has_time_told = 1;
+        cgt_notices_add(&figure->notices,
+                        "--time: frame %" PRIu64 " has no time, - stands in its place; {step} is the step",
+                        figure->frame->number);
+    }
+    if (!figure->has_unit_told && cgt_scale_bar_is_unknown(&figure->overlay.scale, frame.angstrom)) {
+        figure->has_unit_told = 1;
+        cgt_notices_add(
+            &figure->notices,
+            "--scale-bar: \"%s\" is none of the units fm, pm, Angstrom, nm, um, mm, cm, m: the bar is so long "
+            "in the data's own unit, %s Angstrom",
+            figure->overlay.scale.unit, cgt_number(6, 1.0 / frame.angstrom).text);
+    }
     if (figure->parts.frame->labels.count)
         draw_labels(figure, &c, &frame);
     if (cgt_overlay_draw(&figure->overlay, &c, &frame) && !figure->has_scale_told) {
