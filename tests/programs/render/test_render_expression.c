@@ -223,6 +223,13 @@ TEST(words_that_do_not_fit_are_refused)
     } rows[] = {
         {"chain == 1", "compare by == or != with one in quotes, \"1\""},
         {"chain < 2", "compare by == or !="},
+        {"1 == chain", "compare by == or != with one in quotes, \"1\""},
+        {"chain + 0 == 1", "compare by == or != with one in quotes, \""},
+        {"chain * x", "compare by == or != with one in quotes, \""},
+        {"-chain", "compare by == or !="},
+        {"x + (chain == chain)", "write the word in quotes"},
+        {"if(x > 0, 1, chain)", "compare by == or !="},
+        {"max(chain, 2)", "compare by == or !="},
         {"chain == x", "write the word in quotes"},
         {"charge == 'A'", "it is never the word \"A\""},
         {"charge == A", "no column \"A\", but x, y, z, name"},
