@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "common/program.h"
+#include "common/settings_file.h"
 #include "picture/files/image_write.h"
 #include "render/options/option_parsers.h"
 #include "render/options/settings_arguments.h"
@@ -80,9 +81,10 @@ void render_options_parse(render_options *options, int argc, char **argv)
     options->settings = given.settings;
     if (!options->print_settings)
         return;
-    if (given.settings) {
-        printf("%s", given.settings);
+    char *const lines = given.settings ? settings_quote(given.settings) : NULL;
+    if (lines) {
+        printf("%s", lines);
         options_print_others(render_option_table(), &given);
     }
-    exit(program_exit(given.settings ? PROGRAM_OK : PROGRAM_FAILED));
+    exit(program_exit(lines ? PROGRAM_OK : PROGRAM_FAILED));
 }
