@@ -117,7 +117,7 @@ static void choose_legend(cgt_figure *figure)
 {
     const picture_options *o = &figure->options.picture;
     const int is_element = figure->coloring.by == COLORING_ELEMENT;
-    const uint8_t *has = is_element ? figure->survey.has_elements : figure->survey.has_types;
+    const survey *const s = &figure->survey;
     overlay *v = &figure->overlay;
     v->legend = o->legend ? o->legend : o->bar;
     v->kinds = figure->kinds;
@@ -128,11 +128,14 @@ static void choose_legend(cgt_figure *figure)
         free(kinds);
         return;
     }
-    for (uint32_t i = 0; i < SURVEY_KINDS && v->legend; i++) {
-        const uint32_t kind = is_element ? (i + 1) % SURVEY_KINDS : i;
-        if (has[kind])
-            add_kind(figure, kind);
-    }
+    for (uint32_t i = 1; i <= SURVEY_ELEMENTS && v->legend && is_element; i++)
+        if (s->has_elements[i % SURVEY_ELEMENTS])
+            add_kind(figure, i % SURVEY_ELEMENTS);
+    for (uint32_t i = 0; i < SURVEY_TYPES && v->legend && !is_element; i++)
+        if (s->has_types[i / 8] >> i % 8 & 1)
+            add_kind(figure, i);
+    if (v->legend && !is_element && s->type_max >= SURVEY_TYPES)
+        cgt_notices_add(&figure->notices, "--legend: types from %d on are not counted", SURVEY_TYPES);
 }
 
 static void choose_bar(cgt_figure *figure)

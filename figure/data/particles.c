@@ -93,7 +93,10 @@ static void select_block(particles *p, const particle_rules *r, const cgt_trajec
         float *to = p->xyzr + 4 * (size_t)p->count;
         if (r->show && !cgt_expression_holds(show[k]))
             continue;
-        if (r->radius && !(radius[k] >= 0.0f))
+        const int is_dropped = r->radius && !(radius[k] >= 0.0f);
+        p->dropped += is_dropped;
+        p->points += r->radius && radius[k] == 0.0f;
+        if (is_dropped)
             continue;
         memcpy(to, f->xyzr + 4 * (size_t)i, 3 * sizeof *to);
         to[3] = radius[k];
@@ -143,7 +146,7 @@ int cgt_particles_select(particles *p, const particle_rules *r, const cgt_trajec
         free(p->layer);
         p->layer = NULL;
     }
-    p->count = 0;
+    p->count = p->dropped = p->points = 0;
     for (uint32_t first = 0; first < f->count; first += BLOCK)
         select_block(p, r, f, index, first, f->count - first < BLOCK ? f->count - first : BLOCK);
     add_images(p, r->images, f);
@@ -176,6 +179,8 @@ int cgt_particles_sort(particles *p)
         to.layer[k] = p->layer[i];
     }
     to.count = p->count;
+    to.dropped = p->dropped;
+    to.points = p->points;
     memcpy(to.begin, p->begin, sizeof to.begin);
     cgt_particles_free(p);
     *p = to;
