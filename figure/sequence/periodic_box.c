@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Periodic boundaries; see periodic_box.h. In a tilted box the nearest image is not always that of the least shares: the
- * edges are reduced as Selling does (Conway and Sloane, Low-Dimensional Lattices VI, 1992) until no two of them and
- * their negative sum meet at less than a right angle. Then the faces of the cell of the lattice lie halfway to sums of
- * some of them, and a vector that none of these shortens is the least. */
+ * Periodic boundaries; see periodic_box.h. In a tilted box the nearest image is not always that of the least shares:
+ * the edges are reduced as Selling does (Conway and Sloane, Low-Dimensional Lattices VI, 1992) until no two of them
+ * and their negative sum meet at less than a right angle. Then the faces of the cell of the lattice lie halfway to
+ * sums of some of them, and a vector that none of these shortens is the least. */
 #include "sequence/periodic_box.h"
 
 #include <math.h>

@@ -49,8 +49,8 @@ typedef struct survey {
     bulk_values value_samples;                 /* of the finite ones; then their range */
     double value_min, value_max, value_least;  /* least: above 0; +infinity where there is none */
     int has_element;                           /* some sphere is a chemical element */
-    /* With sequence->wants_kinds: a bit for each type, and a byte for each element by its atomic number, of spheres that
-     * are shown. */
+    /* With sequence->wants_kinds: a bit for each type, and a byte for each element by its atomic number, of spheres
+     * that are shown. */
     uint8_t has_types[SURVEY_TYPES / 8], has_elements[SURVEY_ELEMENTS];
 } survey;
 

@@ -555,8 +555,8 @@ TEST(trails_follow_ids_and_break_at_the_boundary)
     cgt_particles_free(&p);
 }
 
-/* Numbers that do not increase begin another run, whatever the steps do; a place that is no number ends a trail; colours and radii are the
- * rules'. */
+/* Numbers that do not increase begin another run, whatever the steps do; a place that is no number ends a trail;
+ * colours and radii are the rules'. */
 TEST(trails_end_where_nothing_is_known)
 {
     static const double edge[3][3] = {{10, 0, 0}, {0, 10, 0}, {2, 0, 10}};
