@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "data/molecule/element_symbols.h"
+#include "options/numbers.h"
 #include "text/labels.h"
 
 static void set_first_light(const cgt_figure *figure, cgt_picture_light *light)
@@ -116,7 +117,7 @@ static void choose_legend(cgt_figure *figure)
 {
     const picture_options *o = &figure->options.picture;
     const int is_element = figure->coloring.by == COLORING_ELEMENT;
-    const uint8_t *has = is_element ? figure->survey.has_elements : figure->survey.has_types;
+    const survey *const s = &figure->survey;
     overlay *v = &figure->overlay;
     v->legend = o->legend ? o->legend : o->bar;
     v->kinds = figure->kinds;
@@ -127,11 +128,14 @@ static void choose_legend(cgt_figure *figure)
         free(kinds);
         return;
     }
-    for (uint32_t i = 0; i < SURVEY_KINDS && v->legend; i++) {
-        const uint32_t kind = is_element ? (i + 1) % SURVEY_KINDS : i;
-        if (has[kind])
-            add_kind(figure, kind);
-    }
+    for (uint32_t i = 1; i <= SURVEY_ELEMENTS && v->legend && is_element; i++)
+        if (s->has_elements[i % SURVEY_ELEMENTS])
+            add_kind(figure, i % SURVEY_ELEMENTS);
+    for (uint32_t i = 0; i < SURVEY_TYPES && v->legend && !is_element; i++)
+        if (s->has_types[i / 8] >> i % 8 & 1)
+            add_kind(figure, i);
+    if (v->legend && !is_element && s->type_max >= SURVEY_TYPES)
+        cgt_notices_add(&figure->notices, "--legend: types from %d on are not counted", SURVEY_TYPES);
 }
 
 static void choose_bar(cgt_figure *figure)
@@ -209,7 +213,7 @@ int cgt_figure_choose_overlay(cgt_figure *figure)
     if (!v->font)
         return -1;
     v->title = o->title;
-    v->time = !o->time || *o->time ? o->time : "t = {time}";
+    v->time = o->time;
     v->axes = o->axes;
     v->scale = o->scale;
     v->coloring = &figure->coloring;
@@ -290,6 +294,20 @@ void cgt_figure_draw_overlay(cgt_figure *figure)
     cgt_camera_get_axes(&figure->camera, frame.right, frame.up, frame.forward);
     const double depth = get_depth(&figure->camera, &frame, figure->camera.target, middle);
     frame.pixel = 2.0 * half_height(&figure->camera, depth) / (double)c.height;
+    if (!figure->has_time_told && cgt_overlay_lacks_time(&figure->overlay, &frame)) {
+        figure->has_time_told = 1;
+        cgt_notices_add(&figure->notices,
+                        "--time: frame %" PRIu64 " has no time, - stands in its place; {step} is the step",
+                        figure->frame->number);
+    }
+    if (!figure->has_unit_told && cgt_scale_bar_is_unknown(&figure->overlay.scale, frame.angstrom)) {
+        figure->has_unit_told = 1;
+        cgt_notices_add(
+            &figure->notices,
+            "--scale-bar: \"%s\" is none of the units fm, pm, Angstrom, nm, um, mm, cm, m: the bar is so long "
+            "in the data's own unit, %s Angstrom",
+            figure->overlay.scale.unit, cgt_number(6, 1.0 / frame.angstrom).text);
+    }
     if (figure->parts.frame->labels.count)
         draw_labels(figure, &c, &frame);
     if (cgt_overlay_draw(&figure->overlay, &c, &frame) && !figure->has_scale_told) {

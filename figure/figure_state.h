@@ -88,8 +88,8 @@ struct cgt_figure {
     uint8_t *small;                           /* a picture of fewer pixels */
     cgt_image image;                          /* of the frame: the caller's memory */
     overlay overlay;
-    overlay_kind kinds[OVERLAY_MOST_KINDS]; /* of its legend */
-    int has_scale_told, has_labels_told;    /* what is wrong with them */
+    overlay_kind kinds[OVERLAY_MOST_KINDS];                                            /* of its legend */
+    int has_scale_told, has_labels_told, has_time_told, has_unit_told, has_radii_told; /* what is wrong with them */
 
     /* Of <cgt/figure.h> alone. */
     int is_open, is_settled, is_surveying, has_bonds_told;
@@ -112,7 +112,7 @@ typedef struct figure_found {
     floor_options floor;
     float bounds_min[3], bounds_max[3];
     survey_times times;
-    uint8_t has_types[SURVEY_KINDS], has_elements[SURVEY_KINDS];
+    uint8_t has_types[SURVEY_TYPES / 8], has_elements[SURVEY_ELEMENTS];
 } figure_found;
 
 /* Whether an origin is subtracted from the data's coordinates. */

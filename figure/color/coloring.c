@@ -69,6 +69,9 @@ int cgt_coloring_init_plain(coloring *c, const float srgb[3])
  * unknown. */
 uint16_t cgt_coloring_entry_of_kind(const coloring *c, int64_t kind)
 {
+    for (uint32_t i = 0; i < c->given_count; i++)
+        if (c->given[i] == kind)
+            return (uint16_t)(COLORING_GIVEN + i);
     const int64_t from = c->by == COLORING_ELEMENT ? 0 : COLORING_STEPS - 1;
     if (c->by == COLORING_CATEGORY && c->categories->has_words && kind == 0)
         return COLORING_UNKNOWN;
@@ -78,7 +81,14 @@ uint16_t cgt_coloring_entry_of_kind(const coloring *c, int64_t kind)
 
 void cgt_coloring_set_kind(coloring *c, int64_t kind, const float srgb[3])
 {
-    set_entry(c, cgt_coloring_entry_of_kind(c, kind), srgb);
+    uint32_t i = 0;
+    while (i < c->given_count && c->given[i] != kind)
+        i++;
+    if (i == PARTICLE_KINDS)
+        return;
+    c->given[i] = kind;
+    c->given_count = i < c->given_count ? c->given_count : i + 1;
+    set_entry(c, COLORING_GIVEN + i, srgb);
 }
 
 void cgt_coloring_free(coloring *c)

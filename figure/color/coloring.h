@@ -15,6 +15,7 @@
 #include "color/categories.h"
 #include "color/color_table.h"
 #include "data/expression/expression.h"
+#include "data/particles.h"
 #include "survey/survey.h"
 
 typedef enum coloring_by {
@@ -33,7 +34,8 @@ typedef enum coloring_by {
 enum {
     COLORING_STEPS = 1024,             /* colours of a measured value */
     COLORING_UNKNOWN = COLORING_STEPS, /* the entry of unknown values */
-    COLORING_ENTRIES
+    COLORING_GIVEN,                    /* the first of kinds that have a colour of their own */
+    COLORING_ENTRIES = COLORING_GIVEN + PARTICLE_KINDS
 };
 
 typedef struct coloring {
@@ -44,8 +46,10 @@ typedef struct coloring {
     const expression *formula;          /* of VALUE and CATEGORY; bound to the frame by the caller */
     categories *categories;             /* of CATEGORY; the caller's */
     float palette[COLORING_ENTRIES][3]; /* linear */
-    uint16_t *index;                    /* per sphere, triangle or vertex; never NULL after cgt_coloring_init */
-    int per_vertex;                     /* set by cgt_coloring_apply: index is per vertex, to be interpolated */
+    int64_t given[PARTICLE_KINDS];      /* kinds that have a colour of their own: other kinds share entries */
+    uint32_t given_count;
+    uint16_t *index; /* per sphere, triangle or vertex; never NULL after cgt_coloring_init */
+    int per_vertex;  /* set by cgt_coloring_apply: index is per vertex, to be interpolated */
     size_t capacity;
 } coloring;
 
@@ -69,7 +73,8 @@ void cgt_coloring_free(coloring *c);
 /* The palette entry of a type, of an element by its atomic number, or of a category, by what the colours have. */
 uint16_t cgt_coloring_entry_of_kind(const coloring *c, int64_t kind);
 
-/* Gives such a kind a colour of its own, in sRGB from 0 to 1. */
+/* Gives such a kind, of PARTICLE_KINDS at most, a colour of its own, in sRGB from 0 to 1. It has another entry then:
+ * before cgt_coloring_apply. */
 void cgt_coloring_set_kind(coloring *c, int64_t kind, const float srgb[3]);
 
 /* Sets index and per_vertex for a frame: speed and height of triangles are those of their vertices. speeds: those of

@@ -30,4 +30,14 @@ static inline const cgt_trajectory_column *frame_column(const cgt_trajectory_fra
     return NULL;
 }
 
+/* Whether it has a box: an edge that is not 0. */
+static inline int frame_has_box(const cgt_trajectory_frame *frame)
+{
+    int has = 0;
+    for (int e = 0; e < 3; e++)
+        for (int c = 0; c < 3; c++)
+            has |= frame->box_edge[e][c] != 0.0;
+    return has;
+}
+
 #endif

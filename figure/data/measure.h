@@ -12,9 +12,6 @@
 
 enum { MEASURE_MOST = 4 }; /* points */
 
-/* The least of the vectors that differ from this one by edges of the box that something goes through. */
-void cgt_nearest_image(const periodic_box *box, double vector[3]);
-
 /* Of 2 points the distance; of 3 the angle at the second, 0 to 180 degrees; of 4 the dihedral about the middle two,
  * -180 to 180 degrees, positive where the last is turned clockwise from the first, seen from the second to the third
  * (IUPAC). Returns whether there is one: points that are not finite have none, and those that within their rounding

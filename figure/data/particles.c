@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "data/frame_access.h"
+
 enum { BLOCK = 256 };
 
 int cgt_particle_rules_are_empty(const particle_rules *r)
@@ -91,7 +93,10 @@ static void select_block(particles *p, const particle_rules *r, const cgt_trajec
         float *to = p->xyzr + 4 * (size_t)p->count;
         if (r->show && !cgt_expression_holds(show[k]))
             continue;
-        if (r->radius && !(radius[k] >= 0.0f))
+        const int is_dropped = r->radius && !(radius[k] >= 0.0f);
+        p->dropped += is_dropped;
+        p->points += r->radius && radius[k] == 0.0f;
+        if (is_dropped)
             continue;
         memcpy(to, f->xyzr + 4 * (size_t)i, 3 * sizeof *to);
         to[3] = radius[k];
@@ -127,20 +132,11 @@ static void add_images(particles *p, const uint32_t images[3], const cgt_traject
     }
 }
 
-static int has_box(const cgt_trajectory_frame *f)
-{
-    int has = 0;
-    for (int i = 0; i < 3; i++)
-        for (int c = 0; c < 3; c++)
-            has |= f->box_edge[i][c] != 0.0;
-    return has;
-}
-
 int cgt_particles_select(particles *p, const particle_rules *r, const cgt_trajectory_frame *f, const uint16_t *index,
                          char *error, size_t error_size)
 {
     const uint32_t copies = r->images[0] * r->images[1] * r->images[2];
-    if (copies > 1 && !has_box(f)) {
+    if (copies > 1 && !frame_has_box(f)) {
         snprintf(error, error_size, "--images: frame %llu has no box", (unsigned long long)f->number);
         return -1;
     }
@@ -150,7 +146,7 @@ int cgt_particles_select(particles *p, const particle_rules *r, const cgt_trajec
         free(p->layer);
         p->layer = NULL;
     }
-    p->count = 0;
+    p->count = p->dropped = p->points = 0;
     for (uint32_t first = 0; first < f->count; first += BLOCK)
         select_block(p, r, f, index, first, f->count - first < BLOCK ? f->count - first : BLOCK);
     add_images(p, r->images, f);
@@ -183,6 +179,8 @@ int cgt_particles_sort(particles *p)
         to.layer[k] = p->layer[i];
     }
     to.count = p->count;
+    to.dropped = p->dropped;
+    to.points = p->points;
     memcpy(to.begin, p->begin, sizeof to.begin);
     cgt_particles_free(p);
     *p = to;

@@ -39,6 +39,7 @@ typedef struct particles {
     uint32_t *source; /* number in the file */
     uint8_t *layer;   /* 0: opaque; NULL: all are */
     size_t capacity;
+    uint32_t dropped, points;            /* by the formula of radii: left out, and of radius 0; without images */
     uint32_t begin[PARTICLE_LAYERS + 1]; /* of each layer, and their end; after cgt_particles_sort */
 } particles;
 

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "data/molecule/bond_guess.h"
 #include "data/molecule/near_pairs.h"
 #include "scene/shapes.h"
 #include "sequence/periodic_box.h"
@@ -45,35 +46,50 @@ static uint32_t image_across(const uint32_t images[3], uint32_t from, const doub
     return (uint32_t)other[0] + images[0] * ((uint32_t)other[1] + images[1] * (uint32_t)other[2]);
 }
 
+typedef struct frame_bonds {
+    sticks *s;
+    const bond_rules *r;
+    const particles *p;
+    uint32_t copies, originals;
+    uint32_t *place; /* among the spheres that are drawn; UINT32_MAX: it is not */
+} frame_bonds;
+
+/* Adds a bond in each image that has both ends. */
+static int add_image_bond(void *user, uint32_t a, uint32_t b, const double count[3])
+{
+    const frame_bonds *const f = user;
+    const uint32_t from = f->place[a], to = f->place[b];
+    for (uint32_t image = 0; image < f->copies && from != UINT32_MAX && to != UINT32_MAX; image++) {
+        const uint32_t other = image_across(f->r->images, image, count);
+        if (other != UINT32_MAX)
+            add_bond(f->s, f->r, f->p, image * f->originals + from, other * f->originals + to);
+    }
+    return f->s->failed ? -1 : 0;
+}
+
 /* The spheres are in the file's order, those that are not drawn left out, then come the images. */
-static int add_file_bonds(sticks *s, const bond_rules *r, const cgt_trajectory_frame *f, const particles *p,
-                          char *error, size_t error_size)
+static int add_frame_bonds(sticks *s, const bond_rules *r, const cgt_trajectory_frame *f, const particles *p)
 {
     const periodic_box box = cgt_periodic_box_of(f);
-    const uint32_t copies = r->images[0] * r->images[1] * r->images[2], originals = p->count / copies;
-    uint32_t *place = malloc(((size_t)f->count + 1) * sizeof *place);
-    if (!place) {
-        snprintf(error, error_size, "out of memory for bonds");
+    frame_bonds to = {.s = s, .r = r, .p = p, .copies = r->images[0] * r->images[1] * r->images[2]};
+    to.originals = p->count / to.copies;
+    to.place = malloc(((size_t)f->count + 1) * sizeof *to.place);
+    if (!to.place)
         return -1;
-    }
     for (uint32_t i = 0; i < f->count; i++)
-        place[i] = UINT32_MAX;
-    for (uint32_t i = 0; i < originals; i++)
-        place[p->source[i]] = i;
-    for (uint32_t i = 0; i < f->bonds; i++) {
-        const uint32_t a = place[f->bond[2 * (size_t)i]], b = place[f->bond[2 * (size_t)i + 1]];
+        to.place[i] = UINT32_MAX;
+    for (uint32_t i = 0; i < to.originals; i++)
+        to.place[p->source[i]] = i;
+    int failed = 0;
+    for (uint32_t i = 0; i < f->bonds && !failed; i++) {
+        const uint32_t a = f->bond[2 * (size_t)i], b = f->bond[2 * (size_t)i + 1];
         double count[3];
-        if (a == UINT32_MAX || b == UINT32_MAX)
-            continue;
-        cgt_periodic_box_crossed(&box, p->xyzr + 4 * (size_t)a, p->xyzr + 4 * (size_t)b, count);
-        for (uint32_t image = 0; image < copies; image++) {
-            const uint32_t other = image_across(r->images, image, count);
-            if (other != UINT32_MAX)
-                add_bond(s, r, p, image * originals + a, other * originals + b);
-        }
+        cgt_periodic_box_crossed(&box, f->xyzr + 4 * (size_t)a, f->xyzr + 4 * (size_t)b, count);
+        failed = add_image_bond(&to, a, b, count);
     }
-    free(place);
-    return 0;
+    failed = failed || cgt_guess_image_bonds(f, add_image_bond, &to);
+    free(to.place);
+    return failed ? -1 : 0;
 }
 
 /* ---- Bonds by distance -------------------------------------------------------------------------------------- */
@@ -96,9 +112,11 @@ int cgt_shapes_add_bonds(sticks *s, const bond_rules *r, const cgt_trajectory_fr
                          size_t error_size)
 {
     near_bonds near = {s, r, p};
-    if (!(r->distance > 0.0f))
-        return f->bonds > 0 ? add_file_bonds(s, r, f, p, error, error_size) : 0;
-    if (cgt_near_pairs_find(p->xyzr, p->count, r->distance, add_near_bond, &near) && !s->failed) {
+    const int has_bonds = f->bonds > 0 || f->bond_source == CGT_TRAJECTORY_BONDS_GUESSED;
+    const int failed = r->distance > 0.0f ? cgt_near_pairs_find(p->xyzr, p->count, r->distance, add_near_bond, &near)
+                       : has_bonds        ? add_frame_bonds(s, r, f, p)
+                                          : 0;
+    if (failed && !s->failed) {
         snprintf(error, error_size, "out of memory for bonds");
         return -1;
     }

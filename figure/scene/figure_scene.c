@@ -430,11 +430,24 @@ static cgt_result set_sticks(cgt_figure *figure)
     return result;
 }
 
+/* Tells once of spheres that a formula of radii takes away. */
+static void tell_radii(cgt_figure *figure, const particles *p)
+{
+    if (figure->has_radii_told || (!p->dropped && !p->points))
+        return;
+    figure->has_radii_told = 1;
+    cgt_notices_add(&figure->notices,
+                    "--radius-by: in frame %" PRIu64 " %" PRIu32
+                    " spheres are left out, whose radius is negative or no number, and %" PRIu32 " have the radius 0",
+                    figure->frame->number, p->dropped, p->points);
+}
+
 int cgt_figure_scene_set(cgt_figure *figure, const frame_parts *parts)
 {
     figure_scene *s = &figure->parts;
     const cgt_trajectory_frame *f = figure->frame;
     s->frame = parts;
+    tell_radii(figure, &parts->particles);
     const particle_options *const o = &figure->options.particles;
     if (figure->coloring.by == COLORING_RGB)
         memcpy(s->palette, figure->coloring.palette, sizeof figure->coloring.palette);

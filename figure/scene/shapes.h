@@ -32,8 +32,8 @@ typedef struct bond_rules {
 } bond_rules;
 
 /* Adds bonds of one frame, which may have none. A bond of the frame that goes through a periodic boundary, as
- * periodic_box.h tells, is drawn between the images of its spheres, and left out at the outer boundary. Returns 0, or
- * -1 with a sentence: no memory. */
+ * periodic_box.h tells, is drawn between the images of its spheres, and left out at the outer boundary. So are guessed
+ * bonds of a small cell to more images than one. Returns 0, or -1 with a sentence: no memory. */
 int cgt_shapes_add_bonds(sticks *s, const bond_rules *rules, const cgt_trajectory_frame *frame,
                          const particles *spheres, char *error, size_t error_size);
 

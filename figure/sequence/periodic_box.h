@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What goes through a periodic boundary of a frame's box: bonds, and the steps of speeds and trails. Each edge is
- * looked at by itself, in tilted boxes by its share of the height. */
+ * What goes through a periodic boundary of a frame's box: bonds, and the steps of speeds and trails. It goes to
+ * the nearest image, in tilted boxes, too. */
 #ifndef PERIODIC_BOX_H
 #define PERIODIC_BOX_H
 
@@ -14,6 +14,8 @@ typedef struct periodic_box {
     double edge[3][3];
     double row[3][3];
     double near; /* a step that is shorter along x, y and z goes through no boundary */
+    double sure; /* half of the least height: no image of a vector of this length is shorter */
+    int leans;   /* two edges with rows are not at right angles */
 } periodic_box;
 
 periodic_box cgt_periodic_box_of(const cgt_trajectory_frame *frame);
@@ -22,8 +24,14 @@ periodic_box cgt_periodic_box_of(const cgt_trajectory_frame *frame);
 double cgt_periodic_box_share(const periodic_box *box, int e, const double vector[3]);
 double cgt_periodic_box_height(const periodic_box *box, int e);
 
-/* How many times each edge must be taken from b so that it is within half of that edge from a: count[e] is 0 along
- * edges whose boundary lies not between them. Returns whether one does. */
+/* The least of the vectors that differ from this one by edges of the box that something goes through. */
+void cgt_nearest_image(const periodic_box *box, double vector[3]);
+
+/* How many times each edge must be taken from a step so that it is the shortest: 0 along edges whose boundary it does
+ * not go through, as a step of half an edge does not. Returns whether it goes through one. */
+int cgt_periodic_box_count(const periodic_box *box, const double step[3], double count[3]);
+
+/* The same of the step from a to b. */
 int cgt_periodic_box_crossed(const periodic_box *box, const float a[3], const float b[3], double count[3]);
 
 #endif

@@ -19,7 +19,7 @@ struct speed_tracker {
     float *last_xyz; /* of the frame before: 3 floats each */
     float *xyz;      /* of the one that is being processed, where its spheres are in another order; NULL: not yet */
     id_match last;   /* its spheres */
-    int64_t last_step;
+    uint64_t last_number;
     int has_last;
     float *first;         /* speeds of the run's first frame; NULL: unknown */
     uint32_t first_count; /* spheres of it */
@@ -169,7 +169,7 @@ static int process(speed_tracker *t, const cgt_trajectory_frame *frame)
     const periodic_box box = cgt_periodic_box_of(frame);
     const uint32_t pieces = frame->count / PIECE + (frame->count % PIECE > 0);
     const int has_box = !(frame->box_min[0] > frame->box_max[0]);
-    speed_job job = {.tracker = t, .frame = frame, .box = &box, .later = t->has_last && frame->step > t->last_step};
+    speed_job job = {.tracker = t, .frame = frame, .box = &box, .later = t->has_last && frame->number > t->last_number};
     const int is_compared = job.later && !frame->velocity;
     if (is_compared && cgt_id_match_prepare(&t->last, ids(frame), frame->count))
         return -1;
@@ -185,7 +185,7 @@ static int process(speed_tracker *t, const cgt_trajectory_frame *frame)
         for (int c = 0; c < 3; c++)
             t->boxless[c] = fmaxf(t->boxless[c], job.boxless[k][c]);
     free(job.boxless);
-    t->last_step = frame->step;
+    t->last_number = frame->number;
     t->has_last = 1;
     t->xyz = is_moved ? t->last_xyz : t->xyz;
     t->last_xyz = job.xyz;
@@ -201,7 +201,7 @@ int cgt_speed_look_ahead(speed_tracker *t, const cgt_trajectory_frame *next)
     t->first_count = count;
     for (uint32_t i = 0; i < count; i++)
         t->first[i] = NAN;
-    for (uint32_t i = 0; i < next->count && next->step > t->last_step; i++) {
+    for (uint32_t i = 0; i < next->count && next->number > t->last_number; i++) {
         const uint32_t last = id_match_find(&t->last, ids(next), next->count, i);
         const double moved =
             last == UINT32_MAX ? NAN : distance(&box, t->last_xyz + 3 * (size_t)last, frame_place(next, i));

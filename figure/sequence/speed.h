@@ -25,11 +25,11 @@ void cgt_speed_release(speed_tracker *tracker);
 void cgt_speed_restart(speed_tracker *tracker);
 
 /* Processes the next frame; *speeds gets one value per sphere or vertex, valid until the next call. It is NaN where
- * the speed is unknown: there is no frame before, the sphere is new, its numbers are not finite, or the steps do not
- * increase. A sphere that leaves the simulation box on one side and comes back on the other has moved the short way,
- * as periodic_box.h tells; through walls, and where positions are unwrapped, it has moved as far as it says. Where the
- * file has no ids a sphere keeps its index, and after a frame with more spheres nothing is known. Returns 0, or -1
- * where there is no memory. */
+ * the speed is unknown: there is no frame before, the sphere is new, its numbers are not finite, or the frame's
+ * number is not larger; steps may be what they like. A sphere that leaves the simulation box on one side and comes back
+ * on the other has moved the short way, as periodic_box.h tells; through walls, and where positions are unwrapped, it
+ * has moved as far as it says. Where the file has no ids a sphere keeps its index, and after a frame with more spheres
+ * nothing is known. Returns 0, or -1 where there is no memory. */
 int cgt_speed_next(speed_tracker *tracker, const cgt_trajectory_frame *frame, const float **speeds,
                    speed_source *source);
 

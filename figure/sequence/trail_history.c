@@ -21,7 +21,7 @@ struct trail_history {
     uint32_t length;
     trail_frame *frame; /* length + 1 of them: frame k lies at k % (length + 1) */
     uint64_t added;     /* since the start */
-    int64_t last_step;
+    uint64_t last_number;
     id_match last; /* the spheres of the newest */
 };
 
@@ -73,7 +73,7 @@ static int reserve(trail_frame *t, uint32_t count)
 int cgt_trail_history_add(trail_history *h, const cgt_trajectory_frame *f)
 {
     trail_frame *const t = at(h, h->added);
-    const int follows = h->added > 0 && f->step > h->last_step;
+    const int follows = h->added > 0 && f->number > h->last_number;
     t->count = 0;
     if (reserve(t, f->count) || (follows && cgt_id_match_prepare(&h->last, f->id, f->count)))
         return -1;
@@ -82,7 +82,7 @@ int cgt_trail_history_add(trail_history *h, const cgt_trajectory_frame *f)
         t->before[i] = follows ? id_match_find(&h->last, f->id, f->count, i) : UINT32_MAX;
     }
     t->count = f->count;
-    h->last_step = f->step;
+    h->last_number = f->number;
     h->added++;
     return cgt_id_match_remember(&h->last, f->id, f->count);
 }

@@ -26,9 +26,9 @@ void cgt_trail_history_restart(trail_history *h);
 int cgt_trail_history_add(trail_history *h, const cgt_trajectory_frame *frame);
 
 /* The places of sphere i of the newest frame in it and in the frames before, the newest first: up to length + 1 of
- * three floats. They end where the sphere is new, where steps do not increase, and before a place that is not finite.
- * Returns how many. A sphere is known by its id; where the file has none, by its index, and after a frame with more
- * spheres nothing is known. */
+ * three floats. They end where the sphere is new, where the numbers of frames do not increase, and before a place that
+ * is not finite. Returns how many. A sphere is known by its id; where the file has none, by its index, and after a
+ * frame with more spheres nothing is known. */
 uint32_t cgt_trail_history_places(const trail_history *h, uint32_t i, float (*place)[3]);
 
 #endif

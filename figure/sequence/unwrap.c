@@ -4,7 +4,7 @@
  * Whole molecules; see unwrap.h. Bonds join trees of spheres, each with the number of edges by which it is to be moved
  * against its parent: R. E. Tarjan, "Applications of Path Compression on Balanced Trees", J. ACM 26 (1979), 690-715.
  * The root of a tree is the first of its spheres in the file. Without image flags spheres are followed from frame to
- * frame: each by the edges that its share of the box jumps, whatever the box does. */
+ * frame: each to the nearest image by its shares of the box, whatever the box does. */
 #include "data/frame_access.h"
 #include "sequence/unwrap.h"
 
@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "data/molecule/bond_guess.h"
 #include "sequence/id_match.h"
 #include "sequence/periodic_box.h"
 
@@ -161,25 +162,27 @@ static uint32_t find_root(unwrapping *u, uint32_t i)
     return root;
 }
 
-/* Joins the molecules of both ends. One that a bond leads back to at another image has no end. */
-static void join(unwrapping *u, const periodic_box *box, const float *xyzr, uint32_t a, uint32_t b)
+/* Joins the molecules of both ends, b being in the image that the count tells. One that a bond leads back to at another
+ * image has no end. */
+static int join(void *user, uint32_t a, uint32_t b, const double count[3])
 {
-    double count[3], between[3]; /* what the root of b must be moved by against that of a */
+    unwrapping *const u = user;
+    double between[3]; /* what the root of b must be moved by against that of a */
     const uint32_t ra = find_root(u, a), rb = find_root(u, b);
     int differs = 0;
-    cgt_periodic_box_crossed(box, xyzr + 4 * (size_t)a, xyzr + 4 * (size_t)b, count);
     for (int e = 0; e < 3; e++) {
         between[e] = u->move[a][e] - count[e] - u->move[b][e];
         differs |= between[e] != 0.0;
     }
     u->is_endless[ra] |= ra == rb && differs;
     if (ra == rb)
-        return;
+        return 0;
     const int a_first = ra < rb;
     u->is_endless[a_first ? ra : rb] |= u->is_endless[a_first ? rb : ra];
     u->parent[a_first ? rb : ra] = a_first ? ra : rb;
     for (int e = 0; e < 3; e++)
         u->move[a_first ? rb : ra][e] = a_first ? between[e] : -between[e];
+    return 0;
 }
 
 static void add_edges(const periodic_box *box, const double count[3], double place[3])
@@ -224,22 +227,27 @@ static void center(unwrapping *u, const periodic_box *box, const cgt_trajectory_
     }
 }
 
-/* Returns whether a molecule has no end: that stays as the file has it. */
-static int join_bonds(unwrapping *u, const periodic_box *box, const cgt_trajectory_frame *f)
+/* Sets whether a molecule has no end: that stays as the file has it. Returns 0, or -1: no memory. */
+static int join_bonds(unwrapping *u, const periodic_box *box, const cgt_trajectory_frame *f, int *endless)
 {
-    int endless = 0;
     for (uint32_t i = 0; i < f->count; i++)
         u->parent[i] = i;
     memset(u->move, 0, f->count * sizeof *u->move);
     memset(u->is_endless, 0, f->count);
-    for (size_t i = 0; i < f->bonds; i++)
-        join(u, box, f->xyzr, f->bond[2 * i], f->bond[2 * i + 1]);
+    for (size_t i = 0; i < f->bonds; i++) {
+        const uint32_t a = f->bond[2 * i], b = f->bond[2 * i + 1];
+        double count[3];
+        cgt_periodic_box_crossed(box, f->xyzr + 4 * (size_t)a, f->xyzr + 4 * (size_t)b, count);
+        join(u, a, b, count);
+    }
+    if (cgt_guess_image_bonds(f, join, u))
+        return -1;
     for (uint32_t i = 0; i < f->count; i++)
         if (u->is_endless[find_root(u, i)]) {
             memset(u->move[i], 0, sizeof u->move[i]);
-            endless = 1;
+            *endless = 1;
         }
-    return endless;
+    return 0;
 }
 
 /* ---- From frame to frame --------------------------------------------------------------------------------------- */
@@ -259,12 +267,15 @@ static int reserve_past(unwrap_past *past, size_t count)
 }
 
 /* The edges to add to sphere i, which was number k of the frame before. */
-static void follow_sphere(unwrapping *u, const double share[3], uint32_t i, uint32_t k)
+static void follow_sphere(unwrapping *u, const periodic_box *box, const double share[3], uint32_t i, uint32_t k)
 {
-    for (int e = 0; e < 3; e++) {
-        const double jump = share[e] - u->past.share[k][e];
-        u->move[i][e] = u->past.move[k][e] - (isfinite(jump) ? rint(jump) : 0.0);
-    }
+    double jump[3], step[3] = {0.0, 0.0, 0.0}, count[3];
+    for (int e = 0; e < 3; e++)
+        jump[e] = share[e] - u->past.share[k][e];
+    add_edges(box, jump, step);
+    cgt_periodic_box_count(box, step, count);
+    for (int e = 0; e < 3; e++)
+        u->move[i][e] = u->past.move[k][e] - count[e];
 }
 
 /* From the box's corner: those of far boxes whose edges change would jump. */
@@ -283,16 +294,14 @@ static int follow(unwrapping *u, const periodic_box *box, const cgt_trajectory_f
 {
     unwrap_past *const past = &u->past;
     double share[3];
-    if (!past->is_there)
-        *endless |= join_bonds(u, box, f);
-    else if (cgt_id_match_prepare(&past->spheres, f->id, f->count))
+    if (past->is_there ? cgt_id_match_prepare(&past->spheres, f->id, f->count) : join_bonds(u, box, f, endless))
         return -1;
     for (uint32_t i = 0; i < f->count && past->is_there; i++) {
         const uint32_t k = id_match_find(&past->spheres, f->id, f->count, i);
         memset(u->move[i], 0, sizeof u->move[i]);
         share_of(box, f, i, share);
         if (k != UINT32_MAX)
-            follow_sphere(u, share, i, k);
+            follow_sphere(u, box, share, i, k);
     }
     if (reserve_past(past, f->count) || cgt_id_match_remember(&past->spheres, f->id, f->count))
         return -1;
@@ -354,9 +363,7 @@ int cgt_unwrap_frame(unwrapping *u, cgt_trajectory_frame *f, int *endless, char 
         return refuse(u, f, "has no bonds; --topology takes them from another file", error, error_size);
     if (has_flags)
         take_flags(u, f, value);
-    else if (u->mode == UNWRAP_WHOLE)
-        *endless |= join_bonds(u, &box, f);
-    else if (follow(u, &box, f, endless))
+    else if (u->mode == UNWRAP_WHOLE ? join_bonds(u, &box, f, endless) : follow(u, &box, f, endless))
         return refuse(u, f, "is too large for the memory", error, error_size);
     if (u->mode == UNWRAP_WHOLE)
         center(u, &box, f);

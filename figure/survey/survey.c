@@ -226,8 +226,8 @@ static void survey_values(survey *s, const frame_sequence *sequence, uint32_t fi
 
 static void survey_kind(survey *s, const cgt_trajectory_frame *f, uint32_t i)
 {
-    if (f->type && f->type[i] < SURVEY_KINDS)
-        s->has_types[f->type[i]] = 1;
+    if (f->type && f->type[i] < SURVEY_TYPES)
+        s->has_types[f->type[i] / 8] |= (uint8_t)(1u << f->type[i] % 8);
     if (f->element)
         s->has_elements[f->element[i]] = 1;
 }
@@ -236,7 +236,7 @@ static void survey_kind(survey *s, const cgt_trajectory_frame *f, uint32_t i)
 static void survey_box(survey *s, const frame_sequence *sequence, const camera_directions *fit)
 {
     const cgt_trajectory_frame *f = &sequence->frame;
-    const int has_box = f->box_edge[0][0] != 0.0 || f->box_edge[1][1] != 0.0 || f->box_edge[2][2] != 0.0;
+    const int has_box = frame_has_box(f);
     for (int corner = 0; corner < 8 && has_box; corner++) {
         double at[3], moved[3] = {0.0, 0.0, 0.0};
         for (int c = 0; c < 3; c++) {
@@ -343,10 +343,10 @@ static void merge(survey *sum, const survey *part)
     sum->value_max = fmax(sum->value_max, part->value_max);
     sum->value_least = fmin(sum->value_least, part->value_least);
     sum->has_element |= part->has_element;
-    for (int kind = 0; kind < SURVEY_KINDS; kind++) {
-        sum->has_types[kind] |= part->has_types[kind];
-        sum->has_elements[kind] |= part->has_elements[kind];
-    }
+    for (size_t k = 0; k < sizeof sum->has_types; k++)
+        sum->has_types[k] |= part->has_types[k];
+    for (size_t k = 0; k < sizeof sum->has_elements; k++)
+        sum->has_elements[k] |= part->has_elements[k];
     sum->speeds += part->speeds;
     for (int bin = 0; bin < SURVEY_BINS; bin++)
         sum->speed_bins[bin] += part->speed_bins[bin];

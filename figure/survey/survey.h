@@ -11,8 +11,8 @@
 #include "survey/bulk.h"
 #include "sequence/frame_sequence.h"
 
-enum { SURVEY_KINDS = 1024 }; /* types and elements that a legend may name; higher types are not told apart */
-enum { SURVEY_BINS = 4096 };  /* of speeds: the leading 13 bits of a float above 0, sixteen bins an octave */
+enum { SURVEY_TYPES = 1 << 16, SURVEY_ELEMENTS = 256 }; /* that a legend may name or count */
+enum { SURVEY_BINS = 4096 }; /* of speeds: the leading 13 bits of a float above 0, sixteen bins an octave */
 
 /* The extremes of the frames' numbers, which texts leave room for. */
 typedef struct survey_times {
@@ -49,8 +49,9 @@ typedef struct survey {
     bulk_values value_samples;                 /* of the finite ones; then their range */
     double value_min, value_max, value_least;  /* least: above 0; +infinity where there is none */
     int has_element;                           /* some sphere is a chemical element */
-    /* With sequence->wants_kinds: 1 for each type, and each element by its atomic number, of spheres that are shown. */
-    uint8_t has_types[SURVEY_KINDS], has_elements[SURVEY_KINDS];
+    /* With sequence->wants_kinds: a bit for each type, and a byte for each element by its atomic number, of spheres
+     * that are shown. */
+    uint8_t has_types[SURVEY_TYPES / 8], has_elements[SURVEY_ELEMENTS];
 } survey;
 
 /* Those who look at one frame together. */

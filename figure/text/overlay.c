@@ -31,14 +31,14 @@ static size_t format_number(const char *format, const overlay_frame *f, char tex
 {
     const size_t time = time_length(format);
     text[0] = '\0';
-    if (time && !isnan(f->time)) {
+    if (time) { /* a step in place of the time would stand before the time's unit */
         const number_text number = time == 6 ? cgt_number(6, f->time) : cgt_fixed(format[7] - '0', f->time);
-        snprintf(text, NUMBER_SIZE, "%s", number.text);
+        snprintf(text, NUMBER_SIZE, "%s", isnan(f->time) ? "-" : number.text);
         return time;
     }
-    if (time || strncmp(format, "{step}", 6) == 0) {
+    if (strncmp(format, "{step}", 6) == 0) {
         snprintf(text, NUMBER_SIZE, "%" PRId64, f->step);
-        return time ? time : 6;
+        return 6;
     }
     if (strncmp(format, "{frame}", 7) != 0)
         return 0;
@@ -97,13 +97,29 @@ static float number_width(const overlay *o, const char *format)
 /* Whether a number stands at the right end of its place: one that is last and has no fixed decimals grows. */
 static int keeps_width(const char *format, size_t taken) { return format[taken] != '\0' || time_length(format) == 10; }
 
-/* Draws the time from x on, unless c is NULL, with numbers at the right end of their place; returns its width. frame
+static const char default_time[] = "t = {time}", default_step[] = "step {step}";
+
+/* The text of a frame. */
+static const char *format_of(const overlay *o, const overlay_frame *frame)
+{
+    return *o->time ? o->time : isnan(frame->time) ? default_step : default_time;
+}
+
+int cgt_overlay_lacks_time(const overlay *o, const overlay_frame *frame)
+{
+    int asks = 0;
+    for (const char *at = o->time; at && *at; at++)
+        asks |= time_length(at) > 0;
+    return asks && isnan(frame->time);
+}
+
+/* Draws a time from x on, unless c is NULL, with numbers at the right end of their place; returns its width. frame
  * NULL: the widest of all. */
-static float draw_time(const overlay *o, const canvas *c, float x, float y, const overlay_frame *frame)
+static float draw_time(const overlay *o, const canvas *c, float x, float y, const char *format,
+                       const overlay_frame *frame)
 {
     static const overlay_frame first = {.number = 0};
     const float begin = x;
-    const char *format = o->time;
     char text[NUMBER_SIZE];
     while (*format) {
         const size_t taken = format_number(format, frame ? frame : &first, text);
@@ -127,6 +143,17 @@ static float draw_time(const overlay *o, const canvas *c, float x, float y, cons
         format += taken;
     }
     return x - begin;
+}
+
+/* The width of the widest time of all frames. */
+static float time_width(const overlay *o)
+{
+    float widest = 0.0f;
+    if (*o->time || !o->extremes)
+        return draw_time(o, NULL, 0.0f, 0.0f, *o->time ? o->time : default_time, NULL);
+    for (uint32_t i = 0; i < o->extremes; i++)
+        widest = fmaxf(widest, draw_time(o, NULL, 0.0f, 0.0f, format_of(o, &o->extreme[i]), NULL));
+    return widest;
 }
 
 /* ---- Titles ------------------------------------------------------------------------------------------------- */
@@ -155,11 +182,12 @@ static void draw_texts(const overlay *o, const canvas *c, const overlay_frame *f
     const float y = (float)c->height - layout_margin * o->size;
     char text[LAYOUT_LINE_SIZE], cut[LAYOUT_LINE_SIZE];
     cgt_text_set_size(o->font, o->layout.size[LAYOUT_TIME]);
-    if (draw_time(o, NULL, time->x0, y, frame) <= end - time->x0 + 1.0f) {
-        draw_time(o, c, time->x0, y, frame);
+    const char *const format = format_of(o, frame);
+    if (draw_time(o, NULL, time->x0, y, format, frame) <= end - time->x0 + 1.0f) {
+        draw_time(o, c, time->x0, y, format, frame);
         return;
     }
-    cgt_overlay_format(o->time, frame, text, sizeof text);
+    cgt_overlay_format(format, frame, text, sizeof text);
     cgt_layout_cut(o->font, text, end - time->x0, cut, sizeof cut);
     cgt_text_draw(o->font, c, time->x0, y, cut, o->color);
 }
@@ -353,7 +381,7 @@ void cgt_overlay_place(overlay *o, uint32_t width, uint32_t height)
     for (uint32_t i = 0; i < in.name_count; i++)
         names[i] = o->kinds[i].name;
     if (o->time && o->font)
-        in.time_width = fmaxf(o->size, draw_time(o, NULL, 0.0f, 0.0f, NULL));
+        in.time_width = fmaxf(o->size, time_width(o));
     if (o->bar && o->coloring->max > o->coloring->min) {
         in.bar = o->bar;
         for (uint32_t i = find_ticks(o, MOST_TICKS, ticks, texts); o->font && i-- > 0;)

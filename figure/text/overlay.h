@@ -25,7 +25,7 @@ typedef struct overlay_kind {
 typedef struct overlay_frame {
     uint64_t number;
     int64_t step;
-    double time; /* NaN: unknown, {time} is the step */
+    double time; /* NaN: unknown, {time} is "-" */
     float right[3], up[3], forward[3];
     double pixel;    /* world units a pixel, at the camera's target */
     double angstrom; /* world units an Angstrom; 0: unknown */
@@ -36,7 +36,8 @@ typedef struct overlay {
     float size;        /* of the font, in pixels */
     float color[3];    /* linear, of text and ticks */
     const char *title; /* NULL: none */
-    const char *time;  /* "t = {time}", "{step}", "{frame}"; NULL: none */
+    const char
+        *time; /* with {time}, {step}, {frame}; "": "t = {time}", of frames without one "step {step}"; NULL: none */
     /* Numbers keep the width of the widest of the run, so that what is around them stands still: frames that have the
      * extremes, and the most letters of {time}. */
     overlay_frame extreme[4];
@@ -60,6 +61,9 @@ int cgt_overlay_draw(const overlay *o, const canvas *c, const overlay_frame *fra
 
 /* Replaces {time}, {time:.2f} with so many decimals, {step} and {frame}; text is cut to size. */
 void cgt_overlay_format(const char *format, const overlay_frame *frame, char *text, size_t size);
+
+/* Whether a text that was given asks for the time of a frame that has none. */
+int cgt_overlay_lacks_time(const overlay *o, const overlay_frame *frame);
 
 /* Ticks between min and max, min < max, rising: multiples of 1, 2 or 5 times a power of ten; with logarithmic, 0 < min,
  * such numbers themselves. Returns how many, at most `most`, which is 2 or more. */

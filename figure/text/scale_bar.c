@@ -7,7 +7,6 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "options/numbers.h"
 
@@ -16,16 +15,38 @@ typedef struct length_unit {
     double angstroms;
 } length_unit;
 
-static const length_unit units[] = {{"\xc3\x85", 1.0},  {"A", 1.0},  {"Angstrom", 1.0},  {"pm", 0.01},
-                                    {"nm", 10.0},       {"um", 1e4}, {"\xc2\xb5m", 1e4}, /* micro sign, mu */
-                                    {"\xce\xbcm", 1e4}, {"mm", 1e7}};
+static const length_unit units[] = {{"\xc3\x85", 1.0},  {"\xe2\x84\xab", 1.0}, {"A", 1.0},         {"Ang", 1.0},
+                                    {"Angstrom", 1.0},  {"Angstroms", 1.0},    {"fm", 1e-5},       {"pm", 0.01},
+                                    {"nm", 10.0},       {"um", 1e4},           {"\xc2\xb5m", 1e4}, /* micro sign, mu */
+                                    {"\xce\xbcm", 1e4}, {"mm", 1e7},           {"cm", 1e8},        {"m", 1e10}};
+
+/* Whether two names are the same but for capitals of ASCII. */
+static int are_same(const char *a, const char *b)
+{
+    for (; *a && *b; a++, b++) {
+        const int is_letter = (*a | 0x20) >= 'a' && (*a | 0x20) <= 'z';
+        if (*a != *b && !(is_letter && (*a | 0x20) == (*b | 0x20)))
+            return 0;
+    }
+    return *a == *b;
+}
 
 static double angstroms_of(const char *unit)
 {
     for (size_t i = 0; i < sizeof units / sizeof units[0]; i++)
-        if (strcmp(units[i].name, unit) == 0)
+        if (are_same(units[i].name, unit))
             return units[i].angstroms;
     return 0.0;
+}
+
+int cgt_scale_bar_is_unknown(const scale_bar *bar, double angstrom)
+{
+    return bar->is_set && *bar->unit && angstrom > 0.0 && !(angstroms_of(bar->unit) > 0.0);
+}
+
+static const char *unit_of_data(double angstrom)
+{
+    return fabs(angstrom - 0.1) < 1e-6 ? "nm" : fabs(angstrom - 1.0) < 1e-6 ? "\xc3\x85" : "";
 }
 
 float cgt_scale_bar_share(const scale_bar *bar) { return bar->length > 0.0 ? 0.4f : 0.25f; }
@@ -51,8 +72,7 @@ static double round_length(double most)
 int cgt_scale_bar_find(const scale_bar *bar, double pixel, double angstrom, float most, float *length,
                        char label[SCALE_BAR_LABEL])
 {
-    const int is_nm = fabs(angstrom - 0.1) < 1e-6, is_angstrom = fabs(angstrom - 1.0) < 1e-6;
-    const char *const unit = *bar->unit ? bar->unit : is_nm ? "nm" : is_angstrom ? "\xc3\x85" : "";
+    const char *const unit = *bar->unit ? bar->unit : unit_of_data(angstrom);
     const double known = angstrom * angstroms_of(unit), world = known > 0.0 ? known : 1.0; /* of the unit */
     const double chosen = bar->length > 0.0 ? bar->length : round_length((double)most * pixel / world);
     *length = (float)(chosen * world / pixel);

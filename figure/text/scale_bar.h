@@ -18,11 +18,15 @@ float cgt_scale_bar_share(const scale_bar *bar);
 
 /* Finds the bar's length in pixels and its label.
  *   pixel      world units a pixel
- *   angstrom   world units an Angstrom; 0: unknown, and a unit that is given is that of the data
+ *   angstrom   world units an Angstrom; 0: unknown. Then a unit that is given is that of the data, and so is one that
+ *              is none of those that are known
  *   most       pixels that there are for it
  * Returns 0, or -1: a length that was given is longer, or shorter than two pixels. */
 int cgt_scale_bar_find(const scale_bar *bar, double pixel, double angstrom, float most, float *length,
                        char label[SCALE_BAR_LABEL]);
+
+/* Whether a unit that was given is none of those that are known, in data whose lengths are: it is that of the data. */
+int cgt_scale_bar_is_unknown(const scale_bar *bar, double angstrom);
 
 /* The longest label that a bar may have. */
 void cgt_scale_bar_longest(const scale_bar *bar, char label[SCALE_BAR_LABEL]);

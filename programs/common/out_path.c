@@ -90,6 +90,23 @@ int out_path_name(const out_path *path, uint64_t number, char *text, size_t size
     return append(path, path->number_end, strlen(path->pattern), text, size, &used);
 }
 
+int out_path_makes(const out_path *path, const char *name)
+{
+    char made[4096];
+    size_t begin = 0;
+    uint64_t number = 0;
+    if (append(path, 0, path->number_at, made, sizeof made, &begin) || strncmp(made, name, begin) != 0)
+        return 0;
+    if (!path->numbered)
+        return strcmp(made, name) == 0;
+    for (const char *digit = name + begin; *digit >= '0' && *digit <= '9' && number < UINT64_MAX / 10 - 1; digit++) {
+        number = 10 * number + (uint64_t)(*digit - '0');
+        if (out_path_name(path, number, made, sizeof made) == 0 && strcmp(made, name) == 0)
+            return 1;
+    }
+    return 0;
+}
+
 /* mkdir that accepts a folder that exists already. */
 static int make_one(const char *folder, char *error, size_t error_size)
 {

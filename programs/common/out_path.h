@@ -23,6 +23,9 @@ int out_path_parse(out_path *path, const char *pattern, char *error, size_t erro
 /* Writes the name with that number into text. Returns 0, or -1 where it does not fit into size. */
 int out_path_name(const out_path *path, uint64_t number, char *text, size_t size);
 
+/* Whether a pattern makes that name with some number. */
+int out_path_makes(const out_path *path, const char *name);
+
 /* Makes the folder that name lies in, and those above it, where they are missing. Returns 0, or -1 with a text. */
 int out_path_make_folder(const char *name, char *error, size_t error_size);
 

@@ -30,6 +30,31 @@ static char *trim(char *text)
     return text;
 }
 
+static int is_blank(char letter) { return isspace((unsigned char)letter) != 0; }
+
+/* Whether a value of so many letters is another one without quotes: its blanks do not count, or it is such a value in
+ * quotes, which would lose them. */
+static int needs_quotes(const char *value, size_t length)
+{
+    for (; length > 0; value++, length -= 2) {
+        if (is_blank(value[0]) || is_blank(value[length - 1]))
+            return 1;
+        if (length < 2 || value[0] != '"' || value[length - 1] != '"')
+            return 0;
+    }
+    return 0;
+}
+
+/* What is in the quotes of a value that needs them, else the value. */
+static char *take_quotes(char *value)
+{
+    const size_t length = strlen(value);
+    if (length < 2 || value[0] != '"' || value[length - 1] != '"' || !needs_quotes(value + 1, length - 2))
+        return value;
+    value[length - 1] = '\0';
+    return value + 1;
+}
+
 /* "name = value" or "name". */
 static int take_line(char *line, settings_taker *take, void *user, char *error, size_t size)
 {
@@ -39,7 +64,7 @@ static int take_line(char *line, settings_taker *take, void *user, char *error, 
         return 0;
     if (equals) {
         *equals = '\0';
-        value = trim(equals + 1);
+        value = take_quotes(trim(equals + 1));
         name = trim(name);
     }
     return take(user, name, value, error, size);
@@ -188,14 +213,38 @@ void settings_print_part(FILE *to, const char *lines, int of_figure)
 
 /* ---- Writing ------------------------------------------------------------------------------------------------ */
 
+char *settings_quote(const char *lines)
+{
+    size_t count = 0, used = 0;
+    for (const char *line = lines; *line; line = settings_next_line(line))
+        count++;
+    char *const text = malloc(strlen(lines) + 2 * count + 1);
+    if (!text)
+        return NULL;
+    for (const char *line = lines, *next; *line; line = next) {
+        next = settings_next_line(line);
+        const size_t length = strcspn(line, "\n"), own = settings_name_length(line);
+        const size_t begin = length >= own + 3 && memcmp(line + own, " = ", 3) == 0 ? own + 3 : length;
+        const char *const quote = needs_quotes(line + begin, length - begin) ? "\"" : "";
+        used += (size_t)sprintf(text + used, "%.*s%s%.*s%s%s", (int)begin, line, quote, (int)(length - begin),
+                                line + begin, quote, line[length] ? "\n" : "");
+    }
+    text[used] = '\0';
+    return text;
+}
+
 int settings_write(const char *path, const char *lines, char *error, size_t size)
 {
     out_file out;
-    const char *const name = out_file_begin(&out, path, error, size);
+    char *const quoted = settings_quote(lines);
+    const char *const name = quoted ? out_file_begin(&out, path, error, size) : NULL;
     FILE *const to = name ? fopen(name, "wb") : NULL;
+    if (!quoted)
+        snprintf(error, size, "%s: out of memory", path);
+    int failed = !to || fprintf(to, "# libcgt " CGT_VERSION_STRING "\n%s", quoted) < 0;
+    free(quoted);
     if (!name)
         return -1;
-    int failed = !to || fprintf(to, "# libcgt " CGT_VERSION_STRING "\n%s", lines) < 0;
     if (to)
         failed |= fclose(to) != 0;
     if (out_file_end(&out, !failed, error, size))

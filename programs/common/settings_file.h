@@ -6,7 +6,8 @@
  *     style = paper
  *     transparent
  *     type-color = 2=red
- * A value reaches to the end of its line; blanks around names and values do not count, and quotes are letters. */
+ * A value reaches to the end of its line; blanks around names and values do not count, and quotes are letters. But a
+ * value in double quotes that begins or ends with a blank inside of them is what they have between them: " two ". */
 #ifndef SETTINGS_FILE_H
 #define SETTINGS_FILE_H
 
@@ -41,7 +42,11 @@ size_t settings_name_length(const char *line);
 size_t settings_copy_part(const char *lines, int of_figure, char *to);
 void settings_print_part(FILE *to, const char *lines, int of_figure);
 
-/* Writes a file of lines "name = value", whole or not at all. Returns 0, or -1 with a sentence. */
+/* The same lines as files have them, with quotes around values whose blanks would not count. The caller frees them.
+ * NULL: no memory. */
+char *settings_quote(const char *lines);
+
+/* Writes a file of lines "name = value", quoted, whole or not at all. Returns 0, or -1 with a sentence. */
 int settings_write(const char *path, const char *lines, char *error, size_t error_size);
 
 #endif

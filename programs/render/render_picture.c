@@ -36,7 +36,12 @@ static int describe(renderer *r)
         used +=
             (size_t)snprintf(text + used, ORIGIN_SIZE, "origin = %.15g,%.15g,%.15g\n", origin[0], origin[1], origin[2]);
     cgt_figure_tell_run(r->figure, text + used, chosen + 1);
-    r->settings = text;
+    r->settings = settings_quote(text);
+    free(text);
+    if (!r->settings) {
+        program_error("out of memory");
+        return -1;
+    }
     add_text(r, "Software", "cgt-render (libcgt " CGT_VERSION_STRING ")");
     add_text(r, "Source", o->input);
     add_text(r, "Title", r->figure->options.picture.title);

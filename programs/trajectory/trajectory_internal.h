@@ -20,34 +20,35 @@
 
 /* What may be doubtful about a file; each is told once, with the first line where it shows. */
 typedef enum trajectory_doubt {
-    DOUBT_OPEN_LINE,     /* the last line has no line feed */
-    DOUBT_COUNT_WORDS,   /* .xyz: words after the count */
-    DOUBT_TAIL,          /* .xyz: lines after the rows */
-    DOUBT_LABEL,         /* a name that is no element's symbol is read as an atom's label */
-    DOUBT_SYMBOL,        /* a name may be a symbol or a label */
-    DOUBT_WIDE_IDS,      /* ids of more than 32 bits */
-    DOUBT_FLAT,          /* no column z */
-    DOUBT_MIXED_COLUMNS, /* x, y and z come from different forms of positions */
-    DOUBT_INTERPOLATION, /* glTF: keys that are played as straight lines, or not at all */
-    DOUBT_FRAMES,        /* the header says more frames than the file has */
-    DOUBT_OLD_COLUMNS,   /* columns without names, known by their number */
-    DOUBT_NO_PLACES,     /* .trr: frames without coordinates */
-    DOUBT_NO_END,        /* .pdb: no END */
-    DOUBT_MORPH,         /* glTF: weights of morph targets that are not zero */
-    DOUBT_NAMES,         /* more names than types are numbered */
-    DOUBT_LATE_BONDS,    /* .pdb: bonds after the models that have them, in a pipe */
-    DOUBT_HEX,           /* .pdb: numbers of bonds that may be decimal or hexadecimal */
-    DOUBT_CELL,          /* .dcd: a cell that may be a matrix or cosines */
-    DOUBT_SYMMETRY,      /* .cif: a space group without its operations */
-    DOUBT_DISORDER,      /* .cif: atoms that are there in part */
-    DOUBT_SITES,         /* spheres that are no atoms are left out */
-    DOUBT_SPECIES,       /* POSCAR, masses of .data: atoms without an element */
-    DOUBT_POINTS,        /* spheres of radius 0 */
-    DOUBT_SHAPES,        /* shapes that are drawn as others, or not at all */
-    DOUBT_LOST,          /* .cif: atoms without coordinates */
-    DOUBT_NO_IDS,        /* .cif: atoms without a number */
-    DOUBT_INCLUDES,      /* .top: files that were not found */
-    DOUBT_WORDS,         /* words that a column has no room for */
+    DOUBT_OPEN_LINE,      /* the last line has no line feed */
+    DOUBT_COUNT_WORDS,    /* .xyz: words after the count */
+    DOUBT_TAIL,           /* .xyz: lines after the rows */
+    DOUBT_LABEL,          /* a name that is no element's symbol is read as an atom's label */
+    DOUBT_SYMBOL,         /* a name may be a symbol or a label */
+    DOUBT_WIDE_IDS,       /* ids of more than 32 bits */
+    DOUBT_FLAT,           /* no column z */
+    DOUBT_MIXED_COLUMNS,  /* x, y and z come from different forms of positions */
+    DOUBT_INTERPOLATION,  /* glTF: keys that are played as straight lines, or not at all */
+    DOUBT_FRAMES,         /* the header says more frames than the file has */
+    DOUBT_OLD_COLUMNS,    /* columns without names, known by their number */
+    DOUBT_NO_PLACES,      /* .trr: frames without coordinates */
+    DOUBT_NO_END,         /* .pdb: no END */
+    DOUBT_MORPH,          /* glTF: weights of morph targets that are not zero */
+    DOUBT_NAMES,          /* more names than types are numbered */
+    DOUBT_LATE_BONDS,     /* .pdb: bonds after the models that have them, in a pipe */
+    DOUBT_HEX,            /* .pdb: numbers of bonds that may be decimal or hexadecimal */
+    DOUBT_CELL,           /* .dcd: a cell that may be a matrix or cosines */
+    DOUBT_SYMMETRY,       /* .cif: a space group without its operations */
+    DOUBT_DISORDER,       /* .cif: atoms that are there in part */
+    DOUBT_SITES,          /* spheres that are no atoms are left out */
+    DOUBT_SPECIES,        /* POSCAR, masses of .data: atoms without an element */
+    DOUBT_POINTS,         /* spheres of radius 0 */
+    DOUBT_SHAPES,         /* shapes that are drawn as others, or not at all */
+    DOUBT_LOST,           /* .cif: atoms without coordinates */
+    DOUBT_NO_IDS,         /* .cif: atoms without a number */
+    DOUBT_INCLUDES,       /* .top: files that were not found */
+    DOUBT_WORDS,          /* words that a column has no room for */
+    DOUBT_TOPOLOGY_ORDER, /* ids that do not tell which atom of the topology a sphere is */
     DOUBTS
 } trajectory_doubt;
 

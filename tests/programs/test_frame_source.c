@@ -451,4 +451,27 @@ TEST(copies_outlive_the_frame)
     close_run(&source);
 }
 
+/* Types are told apart beyond the colours of the palette; of those that are too high the
+ * largest is known. */
+TEST(surveys_tell_high_types)
+{
+    static survey result;
+    static const float xyzr[4 * 4];
+    static const uint32_t type[] = {3, 1500, SURVEY_TYPES - 1, SURVEY_TYPES};
+    survey_team team;
+    uint32_t found = 0;
+    frame_sequence sequence = {
+        .wants_kinds = 1,
+        .frame = {.kind = CGT_TRAJECTORY_SPHERES, .count = 4, .xyzr = xyzr, .type = type, .angstrom = 1.0f}};
+    cgt_survey_begin(&team, &sequence, NULL, context, &result);
+    cgt_survey_look(&team);
+    cgt_survey_end(&team);
+    for (uint32_t k = 0; k < SURVEY_TYPES; k++)
+        found += result.has_types[k / 8] >> k % 8 & 1u;
+    assert_int_equal(found, 3);
+    for (int k = 0; k < 3; k++)
+        assert_true(result.has_types[type[k] / 8] >> type[k] % 8 & 1u);
+    assert_int_equal(result.type_max, SURVEY_TYPES);
+}
+
 SEEDED_SUITE("test_frame_source", write_run, remove_run)

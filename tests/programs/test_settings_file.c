@@ -53,6 +53,11 @@ TEST(reads)
         "\xEF\xBB\xBF# made by hand\n\n  style=paper  \r\ntransparent\ntype-color =1=red\ntype-color = 2=00ff00", 0,
         "style = paper\ntransparent\ntype-color = 1=red\ntype-color = 2=00ff00\n", "");
     expect_read("size = 64x48\nfirst = 3\nbonds\noutput = a b.png\n", 1, "bonds\n", "first, output");
+    expect_read("title = \" two  \"\nbar = \"1\"\n", 0, "title =  two  \n", "bar");
+    expect_read("title = \"\" a\"\"\n", 0, "title = \" a\"\n", ""); /* the blanks of a title in quotes */
+    expect_read("title = \"a\"\n", 0, "title = \"a\"\n", "");
+    expect_read("title = \"\n", 0, "title = \"\n", "");
+    expect_read("title = \" \"\n", 0, "title =  \n", "");
     expect_read("size = 64x48\ntitle = # 'a' = \"b\"\n", 0, "size = 64x48\ntitle = # 'a' = \"b\"\n", "");
 }
 
@@ -77,8 +82,10 @@ TEST(writes)
     assert_int_equal(cgt_context_create(NULL, &context), CGT_OK);
     assert_int_equal(cgt_figure_create(context, &one), CGT_OK);
     assert_int_equal(cgt_figure_create(context, &two), CGT_OK);
-    assert_int_equal(cgt_figure_set_lines(one, "style = paper\nbonds\ntype-color = 1=red\ntype-color = 2=blue\n"),
-                     CGT_OK);
+    assert_int_equal(
+        cgt_figure_set_lines(one, "style = paper\nbonds\ntype-color = 1=red\ntype-color = 2=blue\ntitle =  \"a \n"
+                                  "time = \" {time}\"\nlegend = \"\"\" \"\"\"\n"),
+        CGT_OK);
     cgt_figure_get(one, NULL, before, sizeof before);
     assert_int_equal(settings_write(path, before, error, sizeof error), 0);
     char *const lines = settings_read_figure(path, 0, left_out, sizeof left_out, error, sizeof error);

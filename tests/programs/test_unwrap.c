@@ -261,7 +261,7 @@ TEST(spheres_are_followed_from_frame_to_frame)
                 const uint32_t at = (i + first) % SPHERES;
                 id[at] = 7 * i;
                 for (int e = 0; e < 3; e++)
-                    share[i][e] += frame ? uniform(&r, -0.4, 0.4) : 0.0;
+                    share[i][e] += frame ? uniform(&r, -0.3, 0.3) : 0.0; /* 0.4 of two edges is longer than an image */
                 for (uint32_t c = 0; c < 3; c++) {
                     double place = corner;
                     for (int e = 0; e < 3; e++)
@@ -324,6 +324,23 @@ TEST(what_cannot_be_put_together_is_told)
     assert_int_equal(endless, 1);
     assert_true(isnan(f.xyzr[12]));
     assert_memory_equal(f.xyzr, chain, 12 * sizeof *chain); /* it stays as it is */
+
+    /* a sheet of two atoms, each bonded to three images of the other */
+    static const float sheet[] = {0, 0, 7, 1, 0, 1.42028f, 7, 1};
+    static const double edges[3][3] = {{2.46, 0.0, 0.0}, {-1.23, 2.13042, 0.0}, {0.0, 0.0, 0.0}};
+    static const uint8_t carbon[2] = {6, 6};
+    cgt_trajectory_frame g = {
+        .count = 2, .xyzr = sheet, .element = carbon, .angstrom = 1.0f, .bonds = 1, .bond = bonds};
+    g.kind = CGT_TRAJECTORY_SPHERES;
+    g.periodic[0] = g.periodic[1] = 1;
+    memcpy(g.box_edge, edges, sizeof g.box_edge);
+    for (int guessed = 0; guessed < 2; guessed++) {
+        endless = 0;
+        g.xyzr = sheet;
+        g.bond_source = guessed ? CGT_TRAJECTORY_BONDS_GUESSED : CGT_TRAJECTORY_BONDS_LISTED;
+        assert_int_equal(cgt_unwrap_frame(whole, &g, &endless, error, sizeof error), 0);
+        assert_int_equal(endless, guessed);
+    }
 
     /* flags that end */
     f = m.frame;

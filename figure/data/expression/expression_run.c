@@ -173,17 +173,48 @@ static int bind_word(expression *e, uint32_t i, const cgt_trajectory_frame *fram
     return 0;
 }
 
-/* A column of words against a number would compare places in a list that nobody sees. */
+/* Whether a step pushes a column of words; NULL: what is pushed is computed. */
+static int has_words(const expression *e, const expression_step *s, const cgt_trajectory_frame *frame)
+{
+    return s && s->op == OP_NAME && s->name < EXPRESSION_NAMES && words_of(e, s->name, frame) != NULL;
+}
+
+/* Whether a step pushes one word, not a list of them. */
+static int is_word(const expression *e, const expression_step *s)
+{
+    return s && s->op == OP_NAME && s->name >= EXPRESSION_NAMES &&
+           e->words[s->name - EXPRESSION_NAMES].list == EXPRESSION_LISTS;
+}
+
+static int refuse_words(const expression *e, const expression_step *column, const expression_step *other,
+                        const cgt_trajectory_frame *frame, char *error, size_t size)
+{
+    const cgt_trajectory_column *const words = words_of(e, column->name, frame);
+    return refuse(frame, error, size, "has words in the column \"%s\": compare by == or != with one in quotes, \"%s\"",
+                  e->names[column->name],
+                  other && other->op == OP_NUMBER ? cgt_number(6, other->number).text
+                  : words->words                  ? words->word[0]
+                                                  : "A");
+}
+
+/* Columns of words are compared with words, and may be a condition, or all of a formula: other operations would take
+ * places in a list that nobody sees. Goes through the steps with what pushed each value of the stack. */
 static int check_numbers(const expression *e, const cgt_trajectory_frame *frame, char *error, size_t size)
 {
-    for (uint32_t k = 2; k < e->step_count; k++) {
+    const expression_step *stack[EXPRESSION_STACK] = {NULL};
+    uint32_t top = 0;
+    for (uint32_t k = 0; k < e->step_count; k++) {
         const expression_step *const s = &e->steps[k];
-        if (s->op < OP_LESS || s->op > OP_UNEQUAL || s[-1].op != OP_NUMBER || s[-2].op != OP_NAME ||
-            s[-2].name >= EXPRESSION_NAMES || !words_of(e, s[-2].name, frame))
-            continue;
-        return refuse(frame, error, size,
-                      "has words in the column \"%s\": compare by == or != with one in quotes, \"%s\"",
-                      e->names[s[-2].name], cgt_number(6, s[-1].number).text);
+        const uint32_t operands = s->op <= OP_NAME ? 0 : s->op <= OP_SIGN ? 1 : s->op <= OP_MOD ? 2 : 3;
+        const expression_step **const first = stack + top - operands;
+        const int is_equality = s->op == OP_EQUAL || s->op == OP_UNEQUAL;
+        const int is_comparison = s->op >= OP_LESS && s->op <= OP_UNEQUAL;
+        const int is_condition = s->op == OP_NOT || s->op == OP_AND || s->op == OP_OR;
+        for (uint32_t i = s->op == OP_IF; i < operands && !is_condition; i++)
+            if (has_words(e, first[i], frame) && !(is_equality && i == 0 && is_word(e, first[1])))
+                return refuse_words(e, first[i], is_comparison ? first[1 - i] : NULL, frame, error, size);
+        top -= operands;
+        stack[top++] = operands ? NULL : s;
     }
     return 0;
 }

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "data/molecule/near_pairs.h"
 #include "sequence/periodic_box.h"
@@ -34,12 +35,52 @@ static float covalent_radius(uint8_t element)
 
 typedef struct guess {
     const cgt_trajectory_frame *frame;
-    bond_taker *take;
+    const periodic_box *box;
+    bond_taker *take;             /* of pairs; NULL: take_image is asked */
+    image_bond_taker *take_image; /* of bonds to other images than the nearest */
+    uint32_t *pair;               /* then those of the frame, sorted */
+    size_t pairs;
     void *user;
     float *xyzr;    /* the atoms in the box, then their images near its boundaries */
     uint32_t *atom; /* of each of them */
     size_t count, capacity;
 } guess;
+
+/* A vector between two places of the file. */
+static void between(const guess *g, uint32_t from, uint32_t to, double step[3])
+{
+    for (size_t c = 0; c < 3; c++)
+        step[c] = (double)g->frame->xyzr[4 * (size_t)to + c] - (double)g->frame->xyzr[4 * (size_t)from + c];
+}
+
+/* Whether the frame has the pair a <= b: readers leave out those of two places that one atom may have. */
+static int is_bonded(const guess *g, uint32_t a, uint32_t b)
+{
+    const uint32_t pair[2] = {a, b};
+    return a == b || bsearch(pair, g->pair, g->pairs, sizeof pair, cgt_compare_bonds) != NULL;
+}
+
+/* Tells a bond that is not to the nearest image. Each is found from both of its ends, where one is in the box: that of
+ * the smaller number tells it, and of an atom and its own image the one whose first count is above 0. */
+static int take_other(const guess *g, uint32_t first, uint32_t second)
+{
+    const uint32_t i = g->atom[first] < g->atom[second] ? first : second, k = i == first ? second : first;
+    const uint32_t a = g->atom[i], b = g->atom[k];
+    double step[3], count[3], drawn[3];
+    int differs = 0, sign = 0;
+    if ((a != b && i >= g->frame->count) || !is_bonded(g, a, b))
+        return 0;
+    between(g, a, b, step);
+    cgt_periodic_box_count(g->box, step, drawn);
+    for (size_t c = 0; c < 3; c++)
+        step[c] -= (double)g->xyzr[4 * (size_t)k + c] - (double)g->xyzr[4 * (size_t)i + c];
+    for (int e = 0; e < 3; e++) {
+        count[e] = rint(cgt_periodic_box_share(g->box, e, step));
+        differs |= count[e] != drawn[e];
+        sign = sign ? sign : (count[e] > 0.0) - (count[e] < 0.0);
+    }
+    return differs && (a != b || sign > 0) ? g->take_image(g->user, a, b, count) : 0;
+}
 
 /* Tells a near pair, whose ends may be images. */
 static int take_pair(void *user, uint32_t first, uint32_t second, float square)
@@ -48,10 +89,12 @@ static int take_pair(void *user, uint32_t first, uint32_t second, float square)
     const uint32_t a = g->atom[first], b = g->atom[second];
     const float ra = covalent_radius(g->frame->element[a]), rb = covalent_radius(g->frame->element[b]);
     const float least = nearest * g->frame->angstrom, most = (ra + rb + tolerance) * g->frame->angstrom;
-    if ((first >= g->frame->count && second >= g->frame->count) || a == b || !(ra > 0.0f) || !(rb > 0.0f) ||
+    if ((first >= g->frame->count && second >= g->frame->count) || !(ra > 0.0f) || !(rb > 0.0f) ||
         square < least * least || square > most * most)
         return 0;
-    return g->take(g->user, a, b);
+    if (!g->take)
+        return take_other(g, first, second);
+    return a == b ? 0 : g->take(g->user, a, b);
 }
 
 /* ---- Images --------------------------------------------------------------------------------------------------- */
@@ -128,21 +171,54 @@ static int add_images(guess *g, const periodic_box *box, int e, double longest)
     return 0;
 }
 
+/* The longest bond that atoms of these elements may have. */
+static float longest_bond(const cgt_trajectory_frame *f)
+{
+    float largest = 0.0f;
+    for (uint32_t i = 0; i < f->count; i++)
+        largest = fmaxf(largest, covalent_radius(f->element[i]));
+    return (2.0f * largest + tolerance) * f->angstrom;
+}
+
+/* Tells the bonds up to a length. Returns 0, or -1: no memory. */
+static int find_bonds(guess *g, const periodic_box *box, float longest)
+{
+    int failed = place_atoms(g, box);
+    g->box = box;
+    for (int e = 0; e < 3 && !failed; e++)
+        failed = add_images(g, box, e, (double)longest);
+    failed = failed || cgt_near_pairs_find(g->xyzr, (uint32_t)g->count, longest, take_pair, g);
+    free(g->xyzr);
+    free(g->atom);
+    return failed ? -1 : 0;
+}
+
 int cgt_guess_bonds(const cgt_trajectory_frame *f, bond_taker *take, void *user)
 {
     guess g = {.frame = f, .take = take, .user = user};
     const periodic_box box = cgt_periodic_box_of(f);
-    float largest = 0.0f;
-    for (uint32_t i = 0; i < f->count; i++)
-        largest = fmaxf(largest, covalent_radius(f->element[i]));
-    const float longest = (2.0f * largest + tolerance) * f->angstrom;
-    int failed = place_atoms(&g, &box);
-    for (int e = 0; e < 3 && !failed; e++)
-        failed = add_images(&g, &box, e, (double)longest);
-    failed = failed || cgt_near_pairs_find(g.xyzr, (uint32_t)g.count, longest, take_pair, &g);
-    free(g.xyzr);
-    free(g.atom);
-    return failed ? -1 : 0;
+    return find_bonds(&g, &box, longest_bond(f));
+}
+
+int cgt_guess_image_bonds(const cgt_trajectory_frame *f, image_bond_taker *take, void *user)
+{
+    guess g = {.frame = f, .take_image = take, .user = user};
+    const periodic_box box = cgt_periodic_box_of(f);
+    if (f->bond_source != CGT_TRAJECTORY_BONDS_GUESSED || !f->element)
+        return 0;
+    /* Two images that an atom is bonded to are at most two bonds apart, and two images at least the least height. */
+    const float longest = longest_bond(f);
+    if (box.sure > (double)longest)
+        return 0;
+    g.pair = malloc(((size_t)f->bonds + 1) * 2 * sizeof *g.pair);
+    if (!g.pair)
+        return -1;
+    if (f->bonds)
+        memcpy(g.pair, f->bond, (size_t)f->bonds * 2 * sizeof *g.pair);
+    g.pairs = cgt_sort_bonds(g.pair, f->bonds);
+    const int failed = find_bonds(&g, &box, longest);
+    free(g.pair);
+    return failed;
 }
 
 /* ---- Sorting ------------------------------------------------------------------------------------------------- */

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "common/program.h"
+#include "common/settings_file.h"
 #include "picture/files/image_write.h"
 #include "render/options/option_parsers.h"
 #include "render/options/settings_arguments.h"
@@ -22,6 +23,28 @@ static uint32_t quarter_of_memory(void)
 {
     const uint64_t bytes = system_memory(), mib = bytes > 0 ? bytes >> 22 : 1024;
     return mib < UINT32_MAX ? (uint32_t)mib : UINT32_MAX;
+}
+
+/* Whether two patterns make a name that is the same. Of two with numbers only equal ones are known to. */
+static int make_the_same(const out_path *a, const out_path *b)
+{
+    return strcmp(a->pattern, b->pattern) == 0 || (!b->numbered && out_path_makes(a, b->pattern)) ||
+           (!a->numbered && out_path_makes(b, a->pattern));
+}
+
+/* A file would be written twice, and one of them lost. */
+static int check_names(const render_options *o, char *error, size_t size)
+{
+    for (uint32_t i = 0; i < o->output_count; i++) {
+        if (o->contact_sheet && out_path_makes(&o->outputs[i], o->contact_sheet))
+            return cgt_refuse(error, size, "--contact-sheet: \"%s\" is the name of a picture of \"%s\", too",
+                              o->contact_sheet, o->outputs[i].pattern);
+        for (uint32_t k = 0; k < i; k++)
+            if (make_the_same(&o->outputs[i], &o->outputs[k]))
+                return cgt_refuse(error, size, "--output: \"%s\" and \"%s\" name the same file", o->outputs[k].pattern,
+                                  o->outputs[i].pattern);
+    }
+    return 0;
 }
 
 int render_options_finish(void *options, const char **operands, size_t count, char *error, size_t size)
@@ -42,6 +65,8 @@ int render_options_finish(void *options, const char **operands, size_t count, ch
         if (image_format_of(o->outputs[i].pattern) != IMAGE_PNG && image_format_of(o->outputs[i].pattern) != IMAGE_EXR)
             return cgt_refuse(error, size, "--transparent: \"%s\" holds no opacity; .png and .exr do",
                               o->outputs[i].pattern);
+    if (check_names(o, error, size))
+        return -1;
     if (o->range.last < o->range.first)
         return cgt_refuse(error, size, "--last is before --first");
     if (cgt_figure_options_finish(&o->figure, error, size))
@@ -80,9 +105,10 @@ void render_options_parse(render_options *options, int argc, char **argv)
     options->settings = given.settings;
     if (!options->print_settings)
         return;
-    if (given.settings) {
-        printf("%s", given.settings);
+    char *const lines = given.settings ? settings_quote(given.settings) : NULL;
+    if (lines) {
+        printf("%s", lines);
         options_print_others(render_option_table(), &given);
     }
-    exit(program_exit(given.settings ? PROGRAM_OK : PROGRAM_FAILED));
+    exit(program_exit(lines ? PROGRAM_OK : PROGRAM_FAILED));
 }

@@ -77,7 +77,42 @@ static int reserve_maps(cgt_trajectory *t, trajectory_topology *p, uint32_t coun
     return 1;
 }
 
-/* By ids, where a dump has some of the atoms in any order; else all atoms in the same order. */
+/* Whether the ids of a frame are the numbers from 1 to its count, each once. index: so many places. */
+static int are_numbers(const cgt_trajectory_frame *frame, uint32_t *index)
+{
+    for (uint32_t i = 0; i < frame->count; i++)
+        index[i] = 0;
+    for (uint32_t i = 0; i < frame->count; i++)
+        if (frame->id[i] < 1 || frame->id[i] > frame->count || index[frame->id[i] - 1]++ > 0)
+            return 0;
+    return 1;
+}
+
+static int do_ascend(const cgt_trajectory_frame *frame)
+{
+    int ascends = 1;
+    for (uint32_t i = 1; i < frame->count; i++)
+        ascends &= frame->id[i - 1] < frame->id[i];
+    return ascends;
+}
+
+/* Where only the frame has ids. Those from 1 on are numbers of the topology's atoms: dumps of several processes are in
+ * any order. With others the atoms go by their order, which is told where it may be another one. */
+static int go_by_numbers(cgt_trajectory *t, const trajectory_topology *p, const cgt_trajectory_frame *frame)
+{
+    if (frame->id == NULL || p->frame.id != NULL || do_ascend(frame))
+        return 0;
+    if (are_numbers(frame, p->index))
+        return 1;
+    trajectory_warn(t, DOUBT_TOPOLOGY_ORDER, 0,
+                    "frame %" PRIu64
+                    ": the topology has no ids, and those of the file neither ascend nor are 1 to %" PRIu32
+                    ": its spheres are taken in the order of the topology's atoms",
+                    frame->number, frame->count);
+    return 0;
+}
+
+/* By ids, where a dump has some of the atoms in any order; else all atoms, by their numbers or in the same order. */
 static int map_spheres(cgt_trajectory *t, trajectory_topology *p, const cgt_trajectory_frame *frame)
 {
     const int by_id = frame->id != NULL && p->frame.id != NULL;
@@ -87,10 +122,11 @@ static int map_spheres(cgt_trajectory *t, trajectory_topology *p, const cgt_traj
     if (reserve_maps(t, p, frame->count) < 0 ||
         (by_id && p->ids.keys == 0 && bond_list_index(p->file, &p->ids, p->frame.count) < 0))
         return t->failed ? -1 : trajectory_fail(t, 0, "not enough memory for the topology");
+    const int by_number = go_by_numbers(t, p, frame);
     for (uint32_t i = 0; i < p->frame.count; i++)
         p->sphere[i] = BOND_NONE;
     for (uint32_t i = 0; i < frame->count; i++) {
-        const uint32_t atom = by_id ? bond_list_find(&p->ids, frame->id[i]) : i;
+        const uint32_t atom = by_id ? bond_list_find(&p->ids, frame->id[i]) : by_number ? frame->id[i] - 1 : i;
         if (atom == BOND_NONE)
             return trajectory_fail(t, 0, "frame %" PRIu64 ": the topology has no atom with the id %" PRIu32,
                                    frame->number, frame->id[i]);
@@ -102,14 +138,15 @@ static int map_spheres(cgt_trajectory *t, trajectory_topology *p, const cgt_traj
 
 /* ---- What a frame lacks ------------------------------------------------------------------------------------- */
 
-/* The bonds between atoms that the frame has. */
+/* The bonds between atoms that the frame has, the smaller number first as everywhere. */
 static int set_bonds(cgt_trajectory *t, trajectory_topology *p, cgt_trajectory_frame *frame)
 {
     p->ids.count = 0;
     for (uint32_t i = 0; i < p->frame.bonds; i++) {
         const uint32_t first = p->sphere[p->frame.bond[2 * (size_t)i]];
         const uint32_t second = p->sphere[p->frame.bond[2 * (size_t)i + 1]];
-        if (first != BOND_NONE && second != BOND_NONE && bond_list_add(&p->ids, first, second))
+        const uint32_t low = first < second ? first : second, high = first < second ? second : first;
+        if (first != BOND_NONE && second != BOND_NONE && bond_list_add(&p->ids, low, high))
             return trajectory_fail(t, 0, "not enough memory for the bonds");
     }
     frame->bonds = (uint32_t)p->ids.count;

@@ -25,7 +25,7 @@ cgt_result topology_open(cgt_trajectory *t, const char *path, const cgt_trajecto
 cgt_result topology_want_columns(cgt_trajectory *t, const char *const *names, size_t count);
 
 /* Gives a frame what it lacks: elements, types, ids, bonds, radii. Atoms go by their ids where both files have some,
- * else by their order. Returns 1 or -1. */
+ * by their numbers where the ids of the frame are those from 1 on, else by their order. Returns 1 or -1. */
 int topology_complete(cgt_trajectory *t, cgt_trajectory_frame *frame);
 
 /* Adds the columns of the topology that the frame lacks and that hold at all times to its table. Returns 1 or -1. */

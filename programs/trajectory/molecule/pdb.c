@@ -315,6 +315,8 @@ static int find_bonds(cgt_trajectory *t)
 
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 
+static int is_end(text_span line) { return text_is(field_at(line, 0, 6), "END"); }
+
 static int is_record(text_span line, const char *name)
 {
     const size_t length = strlen(name);
@@ -336,15 +338,22 @@ static int take_line(cgt_trajectory *t, text_span line)
     if (is_record(line, "CRYST1")) {
         read_cell(s, line);
     } else if (is_record(line, "MODEL")) {
+        if (s->in_model && s->count > 0) { /* the one before has no ENDMDL */
+            text_reader_back(&t->text);
+            s->in_model = 0;
+            return 2;
+        }
         text_span number = {line.begin + 5, line.end};
         text_trim(&number);
         s->in_model = s->has_models = 1;
         s->step = text_i64(number, &s->step) ? s->step : (int64_t)t->next;
     } else if (is_record(line, "ENDMDL")) {
+        const int ends = s->in_model || s->count > 0; /* else an END has ended it */
         s->in_model = 0;
-        return 2;
-    } else if (text_is(field_at(line, 0, 6), "END")) {
-        return s->count > 0 && !s->in_model ? 2 : 1;
+        return ends ? 2 : 1;
+    } else if (is_end(line)) {
+        s->in_model = 0;
+        return s->count > 0 ? 2 : 1;
     }
     return 1;
 }
@@ -388,7 +397,7 @@ static int find_conect(cgt_trajectory *t)
     if (!s->was_searched)
         return 1;
     while ((status = trajectory_line(t, &line)) > 0) {
-        is_inside = is_record(line, "MODEL") || (is_inside && !is_record(line, "ENDMDL"));
+        is_inside = is_record(line, "MODEL") || (is_inside && !is_record(line, "ENDMDL") && !is_end(line));
         has_models |= is_inside;
         if (is_record(line, "MODEL"))
             begin_atoms(s);

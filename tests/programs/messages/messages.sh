@@ -53,6 +53,7 @@ dump_of() { # dump_of COLUMNS ROW
     printf 'ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\nITEM: ATOMS id %s\n%s\n' "$1" "$2"
 }
 { dump_of 'x y z ix iy iz' '1 1 1 1 0 0 0' && dump_of 'x y z' '1 1 1 1'; } >flags_end.lammpstrj
+dump_of 'type x y z' '1 70000 1 1 1' >high_types.lammpstrj
 echo '0 0,0,9,0,0,0,0,1,0,30' >good.keys
 echo '0' >bad.keys
 echo '0 0,0,9,0,0,0,0,1,0,30 fast' >pace.keys

@@ -342,6 +342,14 @@ for seen in '1,1,1 10,10 149.282 2' '3,1,1 30,10 447.846 1.333' '3,3,1 30,30 447
         fail "edges of $1 boxes: $(grep 'rays hit' "$tmp/stdout")"
 done
 refuses 1 'has no box' --images 2,1,1 boxless.xyz
+# The camera sees all images of a cell whose edges have nothing along x, y and z in turn.
+printf '1\nLattice="0 2 2 2 0 2 2 2 0"\nCu 0 0 0\n' >"$tmp/fcc.xyz"
+awk 'BEGIN { print "27\n"; for (i = 0; i < 27; i++) { a = i % 3; b = int(i / 3) % 3; c = int(i / 9)
+    print "Cu", 2 * (b + c), 2 * (a + c), 2 * (a + b) } }' >"$tmp/fcc27.xyz"
+run 0 -n -s 64x64 --images 3,3,3 fcc.xyz
+camera_of_images=$(grep '^camera' "$tmp/stdout")
+run 0 -n -s 64x64 fcc27.xyz
+[ "$camera_of_images" = "$(grep '^camera' "$tmp/stdout")" ] || fail "the camera does not see all images: $camera_of_images"
 refuses 1 'row.xyz has no triangles' --mesh row.xyz row.xyz
 if (cd "$tmp" && $emulator "$program" -q --no-metadata -s 96x54 -o walled.png -c $camera --mesh wall.obj row.xyz) >/dev/null \
     2>"$tmp/stderr"; then

@@ -223,6 +223,13 @@ TEST(words_that_do_not_fit_are_refused)
     } rows[] = {
         {"chain == 1", "compare by == or != with one in quotes, \"1\""},
         {"chain < 2", "compare by == or !="},
+        {"1 == chain", "compare by == or != with one in quotes, \"1\""},
+        {"chain + 0 == 1", "compare by == or != with one in quotes, \""},
+        {"chain * x", "compare by == or != with one in quotes, \""},
+        {"-chain", "compare by == or !="},
+        {"x + (chain == chain)", "write the word in quotes"},
+        {"if(x > 0, 1, chain)", "compare by == or !="},
+        {"max(chain, 2)", "compare by == or !="},
         {"chain == x", "write the word in quotes"},
         {"charge == 'A'", "it is never the word \"A\""},
         {"charge == A", "no column \"A\", but x, y, z, name"},
@@ -307,6 +314,12 @@ TEST(colours_follow_formulas_and_kinds)
     assert_int_equal(cgt_coloring_apply(&c, &frame, NULL), 0);
     assert_true(c.palette[c.index[2]][1] == 1.0f && c.palette[c.index[2]][0] == 0.0f);
     assert_true(c.palette[c.index[1]][1] != 1.0f);
+    const uint16_t low = cgt_coloring_entry_of_kind(&c, 2), high = cgt_coloring_entry_of_kind(&c, 2 + COLORING_STEPS);
+    assert_int_equal(low, high); /* beyond the palette colours begin again, */
+    assert_true(cgt_coloring_entry_of_kind(&c, 3 + COLORING_STEPS) < COLORING_STEPS); /* but not those that are given */
+    cgt_coloring_set_kind(&c, 2 + COLORING_STEPS, (const float[]){0.0f, 0.0f, 1.0f});
+    assert_int_equal(cgt_coloring_entry_of_kind(&c, 2), low);
+    assert_true(c.palette[cgt_coloring_entry_of_kind(&c, 2 + COLORING_STEPS)][2] == 1.0f);
     cgt_coloring_free(&c);
 }
 

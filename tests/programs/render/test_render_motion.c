@@ -37,9 +37,10 @@ typedef struct speed_case {
     speed_source source;
 } speed_case;
 
-static void take(speed_case *s, int64_t step, uint32_t count, const float *xyzr, const uint32_t *id, float box)
+/* All frames have one step: their numbers tell which comes later. */
+static void take(speed_case *s, uint64_t number, uint32_t count, const float *xyzr, const uint32_t *id, float box)
 {
-    cgt_trajectory_frame frame = {.step = step, .count = count, .xyzr = xyzr, .id = id, .box_min = {1, 1, 1}};
+    cgt_trajectory_frame frame = {.number = number, .count = count, .xyzr = xyzr, .id = id, .box_min = {1, 1, 1}};
     for (int c = 0; c < 3 && box > 0.0f; c++) {
         frame.box_edge[c][c] = (double)box;
         frame.periodic[c] = 1;
@@ -65,7 +66,7 @@ TEST(speeds_follow_ids)
     assert_true(isnan(s.speeds[2]));     /* new */
     assert_true(isnan(s.speeds[3]));     /* nowhere */
     take(&s, 110, 4, then, then_id, 0.0f);
-    assert_true(isnan(s.speeds[0])); /* no time has gone by */
+    assert_true(isnan(s.speeds[0])); /* the same frame again */
     take(&s, 120, 0, then, then_id, 0.0f);
     take(&s, 130, 3, first, first_id, 0.0f);
     assert_true(isnan(s.speeds[0]) && isnan(s.speeds[2])); /* the frame before was empty */
@@ -81,7 +82,7 @@ TEST(speeds_of_the_first_frame_look_ahead)
     const float first[] = {9.75f, 5, 5, 1, 1, 1, 1, 1, 2, 2, 2, 1}, then[] = {1, 1, 4, 1, 0.25f, 5, 5, 1};
     const uint32_t first_id[] = {7, 8, 9}, then_id[] = {8, 7};
     speed_case s = {cgt_speed_create(context), NULL, SPEED_FROM_VELOCITY};
-    cgt_trajectory_frame next = {.step = 5, .count = 2, .xyzr = then, .id = then_id, .periodic = {1, 1, 1}};
+    cgt_trajectory_frame next = {.number = 5, .count = 2, .xyzr = then, .id = then_id, .periodic = {1, 1, 1}};
     for (int c = 0; c < 3; c++)
         next.box_edge[c][c] = 10.0;
     for (int round = 0; round < 2; round++) {
@@ -91,7 +92,7 @@ TEST(speeds_of_the_first_frame_look_ahead)
         assert_int_equal(cgt_speed_look_ahead(s.tracker, &next), 0);
         cgt_speed_restart(s.tracker);
     }
-    next.step = 0; /* no time goes by */
+    next.number = 0; /* the same frame */
     take(&s, 0, 3, first, first_id, 10.0f);
     assert_int_equal(cgt_speed_look_ahead(s.tracker, &next), 0);
     cgt_speed_restart(s.tracker);
@@ -112,9 +113,9 @@ TEST(speeds_go_the_short_way_round_the_box)
     assert_near(s.speeds[0], sqrt(2.0 * 9.5 * 9.5), 1e-5);
     for (int k = 0; k < 2; k++) { /* about half of an edge */
         const float half[] = {9.75f - (k ? 5.25f : 4.75f), 5, 0.25f, 1};
-        take(&s, 3 + 2 * k, 1, half, id, 10.0f);
+        take(&s, 3 + 2 * (uint64_t)k, 1, half, id, 10.0f);
         assert_near(s.speeds[0], 4.75, 1e-6);
-        take(&s, 4 + 2 * k, 1, first, id, 10.0f);
+        take(&s, 4 + 2 * (uint64_t)k, 1, first, id, 10.0f);
     }
     cgt_speed_release(s.tracker);
 }
@@ -132,7 +133,7 @@ static void take_step(speed_case *s, cgt_trajectory_frame frame, const double d[
     cgt_speed_restart(s->tracker);
     frame.count = 1;
     for (int k = 0; k < 2; k++) {
-        frame.step = k;
+        frame.number = (uint64_t)k;
         frame.xyzr = xyzr[k];
         assert_int_equal(cgt_speed_next(s->tracker, &frame, &s->speeds, &s->source), 0);
     }
@@ -141,11 +142,10 @@ static void take_step(speed_case *s, cgt_trajectory_frame frame, const double d[
 /* In tilted boxes, also where the tilt is large, the short way is that of the edges, not of the bounds around them. */
 TEST(speeds_go_the_short_way_round_tilted_boxes)
 {
-    static const double edges[][3][3] = {{{8, 0, 0}, {0, 8, 0}, {0, 0, 8}},
-                                         {{8, 0, 0}, {3, 8, 0}, {0, 0, 8}},
-                                         {{8, 0, 0}, {-4, 8, 0}, {2, -3, 8}},
-                                         {{8, 0, 0}, {0, 8, 0}, {4, 4, 5.65625}}, /* as a rhombic dodecahedron's */
-                                         {{20, 0, 0}, {5, 20, 0}, {0, 0, 1}}};
+    static const double edges[][3][3] = {
+        {{8, 0, 0}, {0, 8, 0}, {0, 0, 8}},   {{8, 0, 0}, {3, 8, 0}, {0, 0, 8}},
+        {{8, 0, 0}, {-4, 8, 0}, {2, -3, 8}}, {{8, 0, 0}, {0, 8, 0}, {4, 4, 5.65625}}, /* as a rhombic dodecahedron's */
+        {{20, 0, 0}, {5, 20, 0}, {0, 0, 1}}, {{8, 0, 0}, {21, 8, 0}, {0, 0, 8}}}; /* it leans by more than two edges */
     static const double d[3] = {0.125, -0.25, 0.0625};
     speed_case s = {cgt_speed_create(context), NULL, SPEED_FROM_VELOCITY};
     for (size_t k = 0; k < sizeof edges / sizeof edges[0]; k++)
@@ -156,6 +156,27 @@ TEST(speeds_go_the_short_way_round_tilted_boxes)
             take_step(&s, frame, d, image);
             assert_near(s.speeds[0], 0.28641, 1e-5);
         }
+    cgt_speed_release(s.tracker);
+}
+
+/* Sheets and chains, whose other edges are 0, in any place of the three. */
+TEST(speeds_go_the_short_way_round_boxes_with_edges_of_nothing)
+{
+    static const double edges[2][3][3] = {{{5, 0, 0}, {1, 5, 0}, {0, 0, 0}}, {{5, 0, 2}, {0, 0, 0}, {0, 0, 0}}};
+    static const double d[3] = {0.125, -0.25, 0.0625};
+    speed_case s = {cgt_speed_create(context), NULL, SPEED_FROM_VELOCITY};
+    for (int i = 0; i < 6; i++) {
+        cgt_trajectory_frame frame = {.kind = CGT_TRAJECTORY_SPHERES};
+        int image[3];
+        for (int e = 0; e < 3; e++) {
+            const int at = (e + i) % 3;
+            memcpy(frame.box_edge[at], edges[i / 3][e], sizeof frame.box_edge[at]);
+            image[at] = frame.box_edge[at][0] != 0.0;
+            frame.periodic[at] = (int8_t)image[at];
+        }
+        take_step(&s, frame, d, image);
+        assert_near(s.speeds[0], 0.28641, 1e-5);
+    }
     cgt_speed_release(s.tracker);
 }
 
@@ -192,13 +213,13 @@ TEST(speeds_without_a_box_note_long_steps)
     cgt_trajectory_frame frame = {.count = 1, .xyzr = first, .box_min = {1, 1, 1}, .box_max = {-1, -1, -1}};
     assert_int_equal(cgt_speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     frame.xyzr = then;
-    frame.step = 1;
+    frame.number = 1;
     assert_int_equal(cgt_speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     cgt_speed_boxless_steps(s.tracker, longest);
     assert_true(longest[0] == 9.5f && longest[1] == 0.0f && longest[2] == 1.0f);
     frame.box_min[0] = frame.box_min[1] = frame.box_min[2] = -2.0f;
-    for (frame.step = 2; frame.step < 4; frame.step++) {
-        frame.xyzr = frame.step == 2 ? first : then;
+    for (frame.number = 2; frame.number < 4; frame.number++) {
+        frame.xyzr = frame.number == 2 ? first : then;
         assert_int_equal(cgt_speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     }
     cgt_speed_boxless_steps(s.tracker, longest);
@@ -251,7 +272,7 @@ TEST(speeds_of_vertices)
     assert_int_equal(cgt_speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     assert_true(isnan(s.speeds[0]) && isnan(s.speeds[1]));
     frame.position = b;
-    frame.step = 2;
+    frame.number = 2;
     assert_int_equal(cgt_speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
     assert_near(s.speeds[0], 5.0, 1e-7);
     assert_near(s.speeds[1], 0.0, 0.0);

@@ -355,6 +355,18 @@ TEST(bonds_cross_boundaries_edge_by_edge)
         {{{20, 0, 0}, {0, 20, 0}, {0, 0, 2}}, {1, 1, 1}, {0}, {3, 3, 1.5f}, {3, 3, 0}, {1, 1, 3}, 2, {0, 0, 0.5f}},
         /* through two boundaries: a corner */
         {{{8, 0, 0}, {0, 8, 0}, {0, 0, 8}}, {1, 1, 1}, {0}, {1, 1, 1}, {7, 7, 1}, {2, 2, 1}, 1, {2, 2, 0}},
+        /* rhombohedral: the shares 0.64, 0.59 and -0.38 are those of an image that is not the nearest */
+        {{{2.19, 1.265, 10.16}, {-2.19, 1.265, 10.16}, {0, -2.53, 10.16}},
+         {1, 1, 1},
+         {0},
+         {0, 0, 12.9f},
+         {0.1f, 2.53f, 21.55f},
+         {2, 1, 1},
+         1,
+         {2.09f, 1.265f, 1.51f}},
+        /* a sheet, whose third edge is 0, and a chain */
+        {{{5, 0, 0}, {0, 5, 0}, {0, 0, 0}}, {1, 1, 0}, {0}, {1, 1, 0}, {4.5f, 1, 0}, {2, 1, 1}, 1, {1.5f, 0, 0}},
+        {{{0, 0, 0}, {0, 0, 0}, {0, 3, 4}}, {0, 0, 1}, {0}, {0, 0, 0}, {0, 2.4f, 3.2f}, {1, 1, 2}, 1, {0, 0.6f, 0.8f}},
     };
     static const uint32_t ends[2] = {0, 1};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -373,6 +385,64 @@ TEST(bonds_cross_boundaries_edge_by_edge)
             fail_msg("row %zu: %u bonds, not %u", i, found, rows[i].bonds);
         for (int c = 0; c < 3; c++)
             assert_near(length[c], rows[i].length[c], 0.01);
+    }
+}
+
+/* Bonds of carbon that are guessed in cells so small that a pair has more than one, or an atom is bonded to its own
+ * image: as many as both ends are in the images. */
+TEST(guessed_bonds_go_to_all_images)
+{
+    static const struct {
+        double edge[3][3];
+        float places[2][3];
+        uint32_t count, images[3], bonds;
+        float length[3];
+    } rows[] = {
+        /* graphene: 1 a cell, 2 more to other cells, of which those at the outer boundary are missing */
+        {{{2.46, 0, 0}, {-1.23, 2.13042, 0}, {0, 0, 15}},
+         {{0, 0, 7}, {0, 1.42028f, 7}},
+         2,
+         {4, 4, 1},
+         16 + 12 + 9,
+         {1.23f, 1.42f, 0}},
+        /* places that are written in other cells */
+        {{{2.46, 0, 0}, {-1.23, 2.13042, 0}, {0, 0, 15}},
+         {{2.46f, 0, 7}, {-2.46f, 1.42028f, 7}},
+         2,
+         {4, 4, 1},
+         8 + 6 + 9,
+         {1.23f, 1.42f, 0}},
+        /* a chain of atoms, each bonded to its own images */
+        {{{1.4, 0, 0}, {0, 9, 0}, {0, 0, 9}}, {{0.1f, 1, 1}}, 1, {5, 1, 1}, 4, {1.4f, 0, 0}},
+        /* two bonds of half an edge */
+        {{{2.8, 0, 0}, {0, 9, 0}, {0, 0, 9}}, {{0, 1, 1}, {1.4f, 1, 1}}, 2, {3, 1, 1}, 3 + 2, {1.4f, 0, 0}},
+        /* a cell so large that there is one bond */
+        {{{9, 0, 0}, {0, 9, 0}, {0, 0, 9}}, {{8.5f, 1, 1}, {0.9f, 1, 1}}, 2, {3, 1, 1}, 2, {1.4f, 0, 0}},
+    };
+    static const uint32_t ends[2] = {0, 1};
+    static const uint8_t carbon[2] = {6, 6};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        cgt_trajectory_frame frame = make_frame(3);
+        float length[3];
+        frame.count = rows[i].count;
+        frame.bonds = rows[i].count - 1;
+        frame.bond = ends;
+        frame.bond_source = CGT_TRAJECTORY_BONDS_GUESSED;
+        frame.element = carbon;
+        frame.angstrom = 1.0f;
+        memcpy(frame.box_edge, rows[i].edge, sizeof frame.box_edge);
+        for (int e = 0; e < 3; e++)
+            frame.periodic[e] = 1;
+        for (int k = 0; k < 2; k++)
+            memcpy(xyzr + 4 * k, rows[i].places[k], sizeof rows[i].places[k]);
+        const uint32_t found = bonds_of_two(&frame, rows[i].images, length);
+        if (found != rows[i].bonds)
+            fail_msg("row %zu: %u bonds, not %u", i, found, rows[i].bonds);
+        for (int c = 0; c < 3; c++)
+            assert_near(length[c], rows[i].length[c], 0.01);
+        frame.bond_source = CGT_TRAJECTORY_BONDS_LISTED; /* a list is what it is */
+        assert_true(bonds_of_two(&frame, rows[i].images, length) <=
+                    rows[i].images[0] * rows[i].images[1] * (rows[i].count - 1));
     }
 }
 
@@ -417,8 +487,7 @@ TEST(arrows_point_along_their_vectors)
  * and through it, 2 rests, 3 is there from frame 2 on. Ids are told in another order each time. */
 static cgt_trajectory_frame make_moved(uint32_t k, uint32_t ids[4], const double edge[3][3])
 {
-    cgt_trajectory_frame f = {
-        .kind = CGT_TRAJECTORY_SPHERES, .step = 10 * (int64_t)k, .number = k, .xyzr = xyzr, .id = ids};
+    cgt_trajectory_frame f = {.kind = CGT_TRAJECTORY_SPHERES, .step = 10, .number = k, .xyzr = xyzr, .id = ids};
     const float x = fmodf(8.25f + 0.5f * (float)k, 10.0f), share = fmodf(0.87f + 0.05f * (float)k, 1.0f);
     const float places[4][3] = {{x, 1, 1}, {5.0f + 2.0f * share, 5, 10.0f * share}, {3, 3, 3}, {1, 8, (float)k}};
     f.count = k < 2 ? 3 : 4;
@@ -486,8 +555,8 @@ TEST(trails_follow_ids_and_break_at_the_boundary)
     cgt_particles_free(&p);
 }
 
-/* Steps that do not increase begin another run; a place that is no number ends a trail; colours and radii are the
- * rules'. */
+/* Numbers that do not increase begin another run, whatever the steps do; a place that is no number ends a trail;
+ * colours and radii are the rules'. */
 TEST(trails_end_where_nothing_is_known)
 {
     static const double edge[3][3] = {{10, 0, 0}, {0, 10, 0}, {2, 0, 10}};
