@@ -152,7 +152,7 @@ bool cgt_figure_get_option(uint32_t index, cgt_figure_option *option)
 
 static cgt_result change(cgt_figure *figure, settings_change change, const char *name, const char *value)
 {
-    if (figure->keeping.is_on && figure->is_settled)
+    if (figure->keeping.is_on)
         return cgt_figure_change(figure, change, name, value);
     if (cgt_figure_settings_change(&figure->given, change, name, value, &figure->options, figure->message,
                                    sizeof figure->message))
@@ -331,7 +331,7 @@ int cgt_figure_choose(cgt_figure *figure, const figure_found *was)
         return -1;
     if (keeps_floor)
         floor->has_place = was->floor.has_place;
-    if (trails && !figure->keeping.is_on && !(figure->sequence.trails = cgt_trail_history_create(trails)))
+    if (trails && !(figure->sequence.trails = cgt_trail_history_create(trails)))
         return cgt_figure_fail(figure, "out of memory for the trails");
     if (figure->has_hand)
         cgt_figure_take_hand(figure);

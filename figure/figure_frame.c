@@ -184,6 +184,14 @@ static int settle_by(cgt_figure *figure, const cgt_figure_frame *frame)
     return cgt_figure_choose(figure, NULL);
 }
 
+/* Trails are of the figure's own frames. */
+static int check_trails(cgt_figure *figure)
+{
+    if (!figure->options.particles.trails || figure->keeping.sequence.trails)
+        return 0;
+    return cgt_figure_fail(figure, "trails: another figure has kept the frame, and this one none before it");
+}
+
 static int show_kept(cgt_figure *figure, cgt_figure_frame *frame)
 {
     if (!figure->is_settled && settle_by(figure, frame)) {
@@ -194,7 +202,8 @@ static int show_kept(cgt_figure *figure, cgt_figure_frame *frame)
         figure->shown->shown_by = NULL;
     figure->shown = frame;
     frame->shown_by = figure;
-    if (take_kept(figure, frame) || cgt_figure_check_frame(figure) || cgt_figure_build(figure, 1)) {
+    if (check_trails(figure) || take_kept(figure, frame) || cgt_figure_check_frame(figure) ||
+        cgt_figure_build(figure, 1)) {
         cgt_figure_unshow(figure);
         return -1;
     }
@@ -328,8 +337,8 @@ static int follow(cgt_figure *figure, const char *name, figure_options *next)
     figure_found was;
     find_kept(figure, name, &was);
     const int is_small = is_of_picture(figure, name, next), had_hand = figure->has_hand;
-    if (!is_small && !figure->shown && !(was.keeps_colors && was.keeps_camera)) {
-        cgt_figure_forget(figure); /* there is no frame to find them by */
+    if (!figure->is_settled || (!is_small && !figure->shown && !(was.keeps_colors && was.keeps_camera))) {
+        cgt_figure_forget(figure); /* nothing was chosen, or there is no frame to find it by */
         cgt_camera_keys_free(&figure->options.keys);
         figure->options = *next;
         memset(&next->keys, 0, sizeof next->keys);

@@ -148,8 +148,8 @@ CGT_API bool cgt_figure_get_option(uint32_t index, cgt_figure_option *option);
  * or a camera that the option changes are those of this frame, a camera of cgt_figure_set_camera ends with the second.
  *   value   NULL: without a value; copied, with blanks in place of ends of lines
  * Errors: INVALID_ARGUMENT (there is no such option; the value; it does not go with another option; unwrap, whole,
- *         trails and type-element where frames are kept), OUT_OF_MEMORY; where frames are kept as cgt_figure_show,
- *         too */
+ *         trails and type-element once cgt_figure_begin_keep was called), OUT_OF_MEMORY; where frames are kept as
+ *         cgt_figure_show, too */
 CGT_API cgt_result cgt_figure_set(cgt_figure *figure, const char *name, const char *value);
 
 /* Sets options by lines "name = value", or "name" alone, of a settings file, in their order; what needs several of them
@@ -198,7 +198,8 @@ CGT_API cgt_result cgt_figure_show(cgt_figure *figure, const cgt_figure_data *da
 /* A frame with all that it has, for a program that shows frames in any order, or reads them in a thread of its own. */
 typedef struct cgt_figure_frame cgt_figure_frame;
 
-/* Begins to keep frames, and ends the survey. May be called again.
+/* Begins to keep frames, and ends the survey. May be called again. Frames that are not kept may still be shown, with
+ * trails of their own.
  *   lead   gets how many frames before one must be given for its speeds, trails and molecules
  * Errors: as cgt_figure_show */
 CGT_API cgt_result cgt_figure_begin_keep(cgt_figure *figure, uint64_t *lead);
@@ -220,7 +221,9 @@ CGT_API const struct cgt_trajectory_frame *cgt_figure_frame_get_data(const cgt_f
 /* Releases a frame; one that is shown is taken away first, by the thread that calls the figure. NULL does nothing. */
 CGT_API void cgt_figure_frame_release(cgt_figure_frame *frame);
 
-/* Makes it the one that is drawn, in place, until another one is. Errors: as cgt_figure_show; then none is shown */
+/* Makes it the one that is drawn, in place, until another one is. One that another figure has kept is as the options of
+ * that one say.
+ * Errors: as cgt_figure_show, then none is shown; INVALID_ARGUMENT (trails of a figure that has kept no frames) */
 CGT_API cgt_result cgt_figure_show_frame(cgt_figure *figure, cgt_figure_frame *frame);
 
 /* ---- The camera --------------------------------------------------------------------------------------------- */

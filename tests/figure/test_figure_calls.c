@@ -1,0 +1,139 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * <cgt/figure.h>: calls in an order that few programs have. Options after frames are kept, frames of two figures,
+ * cameras of a hand between the steps of a picture, and what fails. */
+#include "support/suite.h"
+#include "support/test.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cgt/figure.h>
+
+enum { GRAINS = 4, WIDTH = 60, HEIGHT = 45, BYTES = 3 * WIDTH * HEIGHT };
+
+static cgt_context *context;
+static float place[GRAINS][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5f, 0.5f, 1}}, charge[GRAINS] = {1, 2, 3, 4};
+static const cgt_figure_column columns[] = {{.name = "charge", .values = {charge, 0, CGT_FORMAT_FLOAT}}};
+
+static int make_context(void **state)
+{
+    (void)state;
+    return cgt_context_create(NULL, &context);
+}
+
+static int release_context(void **state)
+{
+    (void)state;
+    cgt_context_release(context);
+    return 0;
+}
+
+static cgt_figure_data grains(void)
+{
+    return (cgt_figure_data){.points = {GRAINS, cgt_floats(place[0], 0), columns, 1, 0.3f}};
+}
+
+static cgt_figure *make_figure(void)
+{
+    cgt_figure *figure;
+    assert_int_equal(cgt_figure_create(context, &figure), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "size", "60x45"), CGT_OK);
+    return figure;
+}
+
+static cgt_figure_frame *keep(cgt_figure *figure, const cgt_figure_data *data)
+{
+    cgt_figure_frame *frame = NULL;
+    char text[256];
+    uint64_t lead;
+    assert_int_equal(cgt_figure_begin_keep(figure, &lead), CGT_OK);
+    assert_int_equal(cgt_figure_keep(figure, data, &frame, text, sizeof text), CGT_OK);
+    return frame;
+}
+
+/* The figure has a sentence with these words. */
+static void expect_message(const cgt_figure *figure, const char *words)
+{
+    char text[1024];
+    cgt_figure_get_error_message(figure, text, sizeof text);
+    if (!strstr(text, words))
+        fail_msg("no \"%s\" in \"%s\"", words, text);
+}
+
+static void draw(cgt_figure *figure, uint8_t rgb[BYTES])
+{
+    const cgt_image image = {.bytes = rgb};
+    assert_int_equal(cgt_figure_draw(figure, &image, NULL), CGT_OK);
+}
+
+/* ---- Frames that are kept ----------------------------------------------------------------------------------- */
+
+/* Options by which frames are taken are refused from the call on that begins to keep them: before a frame is kept,
+ * before one is shown, and after a mesh has undone all choices. */
+TEST(frames_are_kept_by_the_options_before)
+{
+    static const char *const options[][2] = {
+        {"trails", "3"}, {"unwrap", NULL}, {"whole", NULL}, {"type-element", "1=O"}};
+    const cgt_figure_data data = grains();
+    uint8_t rgb[BYTES];
+    for (size_t i = 0; i < TEST_COUNT(options); i++) {
+        cgt_figure *const figure = make_figure();
+        cgt_figure_frame *frame = NULL;
+        char text[100];
+        uint64_t lead;
+        assert_int_equal(cgt_figure_begin_keep(figure, &lead), CGT_OK);
+        for (int step = 0; step < 4; step++) {
+            assert_int_equal(cgt_figure_set(figure, options[i][0], options[i][1]), CGT_ERROR_INVALID_ARGUMENT);
+            snprintf(text, sizeof text, "%s: the frames that are kept", options[i][0]);
+            expect_message(figure, text);
+            assert_int_equal(cgt_figure_get(figure, options[i][0], NULL, 0), 0);
+            if (step == 0)
+                assert_int_equal(cgt_figure_set(figure, "color", "charge"), CGT_OK);
+            if (step == 1)
+                frame = keep(figure, &data);
+            if (step == 2)
+                assert_int_equal(cgt_figure_show_frame(figure, frame), CGT_OK);
+            if (step == 2)
+                assert_int_equal(cgt_figure_set_mesh(figure, NULL), CGT_OK);
+        }
+        assert_int_equal(cgt_figure_show_frame(figure, frame), CGT_OK);
+        draw(figure, rgb);
+        cgt_figure_frame_release(frame);
+        cgt_figure_release(figure);
+    }
+}
+
+/* Beside kept frames others are shown, which have trails of their own. */
+TEST(trails_are_of_frames_that_are_shown_too)
+{
+    cgt_figure *const figure = make_figure(), *const fresh = make_figure();
+    cgt_figure_data data = grains();
+    uint8_t rgb[BYTES], expected[BYTES];
+    const char *const settings = "trails = 3\ncamera = 4,-9,5,0.5,0.5,0.5,0,0,1,20\n";
+    uint64_t lead;
+    assert_int_equal(cgt_figure_set_lines(figure, settings), CGT_OK);
+    assert_int_equal(cgt_figure_set_lines(fresh, settings), CGT_OK);
+    assert_int_equal(cgt_figure_begin_keep(figure, &lead), CGT_OK);
+    assert_int_equal(cgt_figure_show(figure, &data), CGT_OK);
+    draw(figure, rgb);
+    cgt_figure_frame *const frame = keep(figure, &data);
+    assert_int_equal(cgt_figure_show_frame(figure, frame), CGT_OK);
+    draw(figure, rgb);
+    for (data.number = 0; data.number < 3; data.number++) {
+        place[3][2] += 0.7f;
+        assert_int_equal(cgt_figure_show(figure, &data), CGT_OK);
+        assert_int_equal(cgt_figure_show(fresh, &data), CGT_OK);
+    }
+    place[3][2] = 1.0f;
+    draw(figure, rgb);
+    draw(fresh, expected);
+    assert_memory_equal(rgb, expected, sizeof rgb);
+    cgt_figure_frame_release(frame);
+    cgt_figure_release(figure);
+    cgt_figure_release(fresh);
+}
+
+SEEDED_SUITE("test_figure_calls", make_context, release_context)
