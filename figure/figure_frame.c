@@ -198,6 +198,8 @@ static int show_kept(cgt_figure *figure, cgt_figure_frame *frame)
         cgt_figure_begin_again(figure);
         return -1;
     }
+    if (frame->shown_by && frame->shown_by != figure)
+        cgt_figure_unshow(frame->shown_by); /* the frame knows one figure alone */
     if (figure->shown)
         figure->shown->shown_by = NULL;
     figure->shown = frame;

@@ -221,8 +221,8 @@ CGT_API const struct cgt_trajectory_frame *cgt_figure_frame_get_data(const cgt_f
 /* Releases a frame; one that is shown is taken away first, by the thread that calls the figure. NULL does nothing. */
 CGT_API void cgt_figure_frame_release(cgt_figure_frame *frame);
 
-/* Makes it the one that is drawn, in place, until another one is. One that another figure has kept is as the options of
- * that one say.
+/* Makes it the one that is drawn, in place, until another one is, or another figure shows it. One that another figure
+ * has kept is as the options of that one say.
  * Errors: as cgt_figure_show, then none is shown; INVALID_ARGUMENT (trails of a figure that has kept no frames) */
 CGT_API cgt_result cgt_figure_show_frame(cgt_figure *figure, cgt_figure_frame *frame);
 

@@ -136,4 +136,32 @@ TEST(trails_are_of_frames_that_are_shown_too)
     cgt_figure_release(fresh);
 }
 
+/* A frame is drawn by one figure: another one takes it. Trails are of the figure that has kept it. */
+TEST(a_frame_goes_from_figure_to_figure)
+{
+    cgt_figure *const figure = make_figure(), *const other = make_figure();
+    const cgt_figure_data data = grains();
+    uint8_t rgb[BYTES], again[BYTES];
+    const cgt_image image = {.bytes = rgb};
+    cgt_figure_frame *const frame = keep(figure, &data);
+    assert_int_equal(cgt_figure_show_frame(figure, frame), CGT_OK);
+    draw(figure, rgb);
+    assert_int_equal(cgt_figure_show_frame(other, frame), CGT_OK);
+    draw(other, again);
+    assert_memory_equal(again, rgb, sizeof rgb);
+    assert_int_equal(cgt_figure_draw(figure, &image, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "nothing is shown");
+    assert_int_equal(cgt_figure_set(other, "trails", "3"), CGT_OK);
+    assert_int_equal(cgt_figure_show_frame(other, frame), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(other, "another figure has kept the frame");
+    assert_int_equal(cgt_figure_unset(other, "trails"), CGT_OK);
+    assert_int_equal(cgt_figure_show_frame(figure, frame), CGT_OK);
+    assert_int_equal(cgt_figure_show_frame(other, frame), CGT_OK);
+    cgt_figure_frame_release(frame);
+    assert_int_equal(cgt_figure_draw(figure, &image, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_draw(other, &image, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    cgt_figure_release(figure);
+    cgt_figure_release(other);
+}
+
 SEEDED_SUITE("test_figure_calls", make_context, release_context)
