@@ -208,8 +208,8 @@ cgt_result cgt_figure_draw_quick(cgt_figure *figure, cgt_figure_quality quality,
         return finish(figure, NULL, CGT_ERROR_OUT_OF_MEMORY);
     cgt_picture_options settings = cgt_figure_get_settings(figure);
     simplify(&settings, quality);
-    settings.width = (width + shrink - 1) / shrink;
-    settings.height = (height + shrink - 1) / shrink;
+    settings.width = (width - 1) / shrink + 1; /* no sum that wraps: shrink may be any */
+    settings.height = (height - 1) / shrink + 1;
     cgt_picture **const p = &figure->quick[quality];
     result = *p ? cgt_picture_set_options(*p, &settings) : cgt_picture_create(figure->context, &settings, p);
     if (!result) {

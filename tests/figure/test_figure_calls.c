@@ -164,4 +164,60 @@ TEST(a_frame_goes_from_figure_to_figure)
     cgt_figure_release(other);
 }
 
+/* Lines change what their options say, and no more: the camera of the hand and the range of the run stay. */
+TEST(lines_keep_what_they_do_not_name)
+{
+    cgt_figure *const figure = make_figure();
+    cgt_figure_data data = grains();
+    char range[100];
+    cgt_camera hand, then;
+    assert_int_equal(cgt_figure_set(figure, "color", "charge"), CGT_OK);
+    assert_int_equal(cgt_figure_survey(figure, &data), CGT_OK);
+    data.number = 1;
+    charge[3] = 40.0f;
+    assert_int_equal(cgt_figure_survey(figure, &data), CGT_OK);
+    charge[3] = 4.0f;
+    data.number = 0;
+    cgt_figure_frame *const frame = keep(figure, &data);
+    assert_int_equal(cgt_figure_show_frame(figure, frame), CGT_OK);
+    assert_int_equal(cgt_figure_get_camera(figure, &hand), CGT_OK);
+    hand.eye[0] = 20.0f;
+    assert_int_equal(cgt_figure_set_camera(figure, &hand), CGT_OK);
+    assert_int_equal(cgt_figure_set_lines(figure, "outline = 2\nradius-scale = 0.8\n"), CGT_OK);
+    assert_int_equal(cgt_figure_set_lines(figure, ""), CGT_OK);
+    assert_int_equal(cgt_figure_get_camera(figure, &then), CGT_OK);
+    assert_true(then.eye[0] == 20.0f);
+    cgt_figure_get_chosen(figure, "range", range, sizeof range);
+    assert_string_equal(range, "1,40\n");
+    assert_int_equal(cgt_figure_set_lines(figure, "outline = 1\nview = top\n"), CGT_OK);
+    assert_int_equal(cgt_figure_get_camera(figure, &then), CGT_OK);
+    assert_true(then.eye[0] != 20.0f);
+    cgt_figure_get_chosen(figure, "range", range, sizeof range);
+    assert_string_equal(range, "1,40\n");
+    assert_int_equal(cgt_figure_set_lines(figure, "color = charge\n"), CGT_OK); /* of the frame */
+    cgt_figure_get_chosen(figure, "range", range, sizeof range);
+    assert_string_equal(range, "1,4\n");
+    cgt_figure_frame_release(frame);
+    cgt_figure_release(figure);
+}
+
+/* ---- Pictures ----------------------------------------------------------------------------------------------- */
+
+/* However large the blocks of a quick picture are: one of them has all pixels. */
+TEST(blocks_are_of_any_size)
+{
+    static const uint32_t shrinks[] = {WIDTH, 4000000000u, UINT32_MAX - HEIGHT, UINT32_MAX};
+    cgt_figure *const figure = make_figure();
+    const cgt_figure_data data = grains();
+    uint8_t rgb[BYTES];
+    const cgt_image image = {.bytes = rgb};
+    assert_int_equal(cgt_figure_show(figure, &data), CGT_OK);
+    for (size_t i = 0; i < TEST_COUNT(shrinks); i++) {
+        assert_int_equal(cgt_figure_draw_quick(figure, CGT_FIGURE_SHADOWS, shrinks[i], &image), CGT_OK);
+        for (int k = 3; k < BYTES; k++)
+            assert_int_equal(rgb[k], rgb[k % 3]);
+    }
+    cgt_figure_release(figure);
+}
+
 SEEDED_SUITE("test_figure_calls", make_context, release_context)
