@@ -219,12 +219,30 @@ cgt_result cgt_figure_show_frame(cgt_figure *figure, cgt_figure_frame *frame)
 
 /* ---- Other options ------------------------------------------------------------------------------------------ */
 
-/* Whether a name is among those of a list with blanks around them; NULL, all options, is. */
+/* What changes: the option of a name, or those of lines; both NULL: all options. */
+typedef struct changed_options {
+    const char *name, *lines;
+} changed_options;
+
+/* Whether a name is among those of a list with blanks around them. */
 static int is_among(const char *name, const char *list)
 {
     char word[32];
-    snprintf(word, sizeof word, " %.24s ", name ? name : "");
-    return !name || strstr(list, word) != NULL;
+    snprintf(word, sizeof word, " %.24s ", name);
+    return strstr(list, word) != NULL;
+}
+
+/* Whether one of the options is among those of such a list. */
+static int are_among(const changed_options *changed, const char *list)
+{
+    const char *line = changed->lines;
+    settings_line l;
+    int is_one = changed->name ? is_among(changed->name, list) : !line;
+    while (line && *line) {
+        line = cgt_figure_settings_line(line, &l);
+        is_one |= is_among(l.name, list);
+    }
+    return is_one;
 }
 
 /* Options that change how the scene is drawn, and not the scene. */
@@ -289,14 +307,14 @@ static int change_all(cgt_figure *figure, figure_options *next, const figure_fou
     return cgt_figure_open_picture(figure);
 }
 
-static void find_kept(const cgt_figure *figure, const char *name, figure_found *was)
+static void find_kept(const cgt_figure *figure, const changed_options *changed, figure_found *was)
 {
-    const int is_of_camera = is_among(name, " camera camera-keys orbit view up fov zoom ");
-    const int is_of_colors =
-        is_among(name, " color category range log-scale ") || (is_of_camera && figure->coloring.by == COLORING_HEIGHT);
+    const int is_of_camera = are_among(changed, " camera camera-keys orbit view up fov zoom ");
+    const int is_of_colors = are_among(changed, " color category range log-scale ") ||
+                             (is_of_camera && figure->coloring.by == COLORING_HEIGHT);
     *was = (figure_found){.keeps_colors = !is_of_colors,
                           .keeps_camera = !is_of_camera,
-                          .keeps_floor = !is_among(name, " floor floor-axis floor-height floor-place "),
+                          .keeps_floor = !are_among(changed, " floor floor-axis floor-height floor-place "),
                           .has_kinds = figure->sequence.wants_kinds,
                           .by = figure->coloring.by,
                           .min = figure->coloring.min,
@@ -333,12 +351,12 @@ static int check_keeping(cgt_figure *figure, const figure_options *next)
 }
 
 /* Has the figure follow the options `next`; where it cannot, those of its settings again. */
-static int follow(cgt_figure *figure, const char *name, figure_options *next)
+static int follow(cgt_figure *figure, const changed_options *changed, figure_options *next)
 {
     char ignored[FIGURE_MESSAGE_SIZE], why[FIGURE_MESSAGE_SIZE];
     figure_found was;
-    find_kept(figure, name, &was);
-    const int is_small = is_of_picture(figure, name, next), had_hand = figure->has_hand;
+    find_kept(figure, changed, &was);
+    const int is_small = is_of_picture(figure, changed->name, next), had_hand = figure->has_hand;
     if (!figure->is_settled || (!is_small && !figure->shown && !(was.keeps_colors && was.keeps_camera))) {
         cgt_figure_forget(figure); /* nothing was chosen, or there is no frame to find it by */
         cgt_camera_keys_free(&figure->options.keys);
@@ -364,6 +382,7 @@ static int follow(cgt_figure *figure, const char *name, figure_options *next)
 
 cgt_result cgt_figure_change(cgt_figure *figure, settings_change change, const char *name, const char *value)
 {
+    const changed_options changed = {name, change == SETTINGS_LINES ? value : NULL};
     figure_settings next = {.count = 0};
     figure_options *const options = calloc(1, sizeof *options); /* too large for some stacks */
     int failed = 1;
@@ -371,7 +390,7 @@ cgt_result cgt_figure_change(cgt_figure *figure, settings_change change, const c
         cgt_figure_fail(figure, "out of memory for options");
     else if (cgt_figure_settings_change(&next, change, name, value, options, figure->message, sizeof figure->message) ==
              0)
-        failed = check_keeping(figure, options) || follow(figure, name, options);
+        failed = check_keeping(figure, options) || follow(figure, &changed, options);
     if (!failed) {
         const figure_settings before = figure->given;
         figure->given = next;
