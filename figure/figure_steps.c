@@ -11,19 +11,38 @@
 
 /* ---- The camera --------------------------------------------------------------------------------------------- */
 
-/* As the option camera has it: far from 0 its text has fewer digits. */
-static int round_camera(cgt_figure *figure, cgt_camera *camera)
+static int is_zero(const float v[3]) { return v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f; }
+
+/* In place of zeros: styles and texts measure by the camera's numbers, too. */
+static void put_defaults(cgt_camera *camera)
+{
+    cgt_camera usual;
+    cgt_camera_init(&usual);
+    if (is_zero(camera->eye) && is_zero(camera->target) && is_zero(camera->up))
+        memcpy(camera->eye, usual.eye, sizeof camera->eye);
+    if (is_zero(camera->up))
+        memcpy(camera->up, usual.up, sizeof camera->up);
+    if (camera->fov == 0.0f)
+        camera->fov = usual.fov;
+}
+
+/* Refuses what the option camera or a picture would. The camera becomes that of its text, which has fewer digits far
+ * from 0, and all of them near it. */
+static int check_camera(cgt_figure *figure, cgt_camera *camera)
 {
     char text[FIGURE_CAMERA_SIZE], error[256];
+    float org[3], dir[3];
     camera_key key;
     cgt_figure_name_camera(figure, camera, text);
     text[strcspn(text, "\n")] = '\0';
-    cgt_camera_init(&key.camera);
     if (cgt_parse_camera(text, &key, error, sizeof error))
         return cgt_figure_fail(figure, "camera: %s", error);
     if (cgt_camera_key_move(&key, figure->origin))
-        return cgt_figure_fail(figure, "eye and target of the camera are the same point");
-    *camera = key.camera;
+        return cgt_figure_fail(figure, "camera: eye and target are the same point");
+    memcpy(camera->eye, key.camera.eye, sizeof camera->eye);
+    memcpy(camera->target, key.camera.target, sizeof camera->target);
+    if (cgt_camera_get_ray(camera, figure->options.width, figure->options.height, 0, 0, org, dir))
+        return cgt_figure_fail(figure, "camera: its rays are not finite, or t_min and t_max are no range from 0 on");
     return 0;
 }
 
@@ -31,7 +50,8 @@ cgt_result cgt_figure_set_camera(cgt_figure *figure, const cgt_camera *camera)
 {
     cgt_camera hand = *camera;
     hand.projection = CGT_PROJECTION_PERSPECTIVE;
-    if (figure_is_moved(figure) && round_camera(figure, &hand))
+    put_defaults(&hand);
+    if (check_camera(figure, &hand))
         return CGT_ERROR_INVALID_ARGUMENT;
     figure->hand = hand;
     figure->has_hand = figure->has_moved = 1;

@@ -235,8 +235,12 @@ CGT_API cgt_result cgt_figure_get_camera(const cgt_figure *figure, cgt_camera *c
 /* Gets the axis that points up by the options, else the camera's up. Errors: as cgt_figure_get_camera */
 CGT_API cgt_result cgt_figure_get_up(const cgt_figure *figure, float up[3]);
 
-/* Sets the camera of all frames, less the data's origin, in place of that of the options; projection is by the option
- * ortho. Errors: INVALID_ARGUMENT: eye and target are the same */
+/* Sets the camera of all frames, less the data's origin, in place of that of the options; zeros are the defaults of
+ * cgt_camera, projection and height are by the option ortho. Lines, such as edges of the box, have the thickness that
+ * this camera asks for from the next cgt_figure_draw or _begin on, but those of a frame that is not kept from the next
+ * cgt_figure_show on.
+ * Errors: INVALID_ARGUMENT (what cgt_camera and the option camera refuse: eye and target are the same, up is along the
+ *         view, fov is not below 180, a number is not finite); the camera is the one before */
 CGT_API cgt_result cgt_figure_set_camera(cgt_figure *figure, const cgt_camera *camera);
 
 /* Moves the camera so that it shows all of the shown frame, in the same direction; it is then one that was set.

@@ -201,6 +201,122 @@ TEST(lines_keep_what_they_do_not_name)
     cgt_figure_release(figure);
 }
 
+/* ---- The camera of a hand ----------------------------------------------------------------------------------- */
+
+/* What cannot be drawn is refused, at any origin, and the camera is the one before. */
+TEST(cameras_that_see_nothing_are_refused)
+{
+    const cgt_camera good = {.eye = {0.5f, -6.0f, 2.0f}, .target = {0.5f, 0.5f, 0.5f}, .up = {0, 0, 1}, .fov = 30.0f};
+    cgt_camera wrong[9];
+    for (size_t i = 0; i < TEST_COUNT(wrong); i++)
+        wrong[i] = good;
+    memcpy(wrong[0].target, good.eye, sizeof good.eye);
+    wrong[1].eye[2] = NAN;
+    wrong[2].target[0] = INFINITY;
+    wrong[3].up[1] = NAN;
+    memcpy(wrong[4].up, (const float[]){0.0f, 13.0f, -3.0f}, sizeof good.up); /* along the view */
+    wrong[5].fov = 400.0f;
+    wrong[6].fov = NAN;
+    wrong[7].t_min = -1.0f;
+    wrong[8].t_min = 2.0f;
+    wrong[8].t_max = 1.0f;
+    for (int far_off = 0; far_off < 2; far_off++) {
+        cgt_figure *const figure = make_figure();
+        cgt_figure_data data = grains();
+        uint8_t before[BYTES], after[BYTES];
+        cgt_camera then;
+        data.origin[0] = far_off ? -1000.0 : 0.0;
+        assert_int_equal(cgt_figure_show(figure, &data), CGT_OK);
+        assert_int_equal(cgt_figure_get_camera(figure, &then), CGT_OK);
+        for (int c = 0; c < 3; c++) { /* about where the grains are */
+            then.eye[c] = good.eye[c] + (then.target[c] - good.target[c]);
+            then.up[c] = good.up[c];
+        }
+        assert_int_equal(cgt_figure_set_camera(figure, &then), CGT_OK);
+        draw(figure, before);
+        for (size_t i = 0; i < TEST_COUNT(wrong); i++) {
+            if (cgt_figure_set_camera(figure, &wrong[i]) != CGT_ERROR_INVALID_ARGUMENT)
+                fail_msg("camera %zu is not refused", i);
+            expect_message(figure, "camera: ");
+        }
+        draw(figure, after);
+        assert_memory_equal(after, before, sizeof after);
+        cgt_figure_release(figure);
+    }
+}
+
+/* Zeros mean the defaults to all that measures by the camera: styles, orthographic pictures, settings. */
+TEST(zeros_of_cameras_are_defaults)
+{
+    static const char *const settings[] = {"style = soft\n", "ortho\nstyle = paper\n", "depth-cue = 0.5\n"};
+    const cgt_camera zeros = {.eye = {0.5f, 0.0f, 6.0f}},
+                     said = {.eye = {0.5f, 0.0f, 6.0f}, .up = {0, 1, 0}, .fov = 45};
+    for (int far_off = 0; far_off < 2; far_off++)
+        for (size_t i = 0; i < TEST_COUNT(settings); i++) {
+            cgt_figure *const figure = make_figure(), *const other = make_figure();
+            cgt_figure_data data = grains();
+            cgt_camera none = {.fov = 0.0f}, then;
+            uint8_t one[BYTES], two[BYTES];
+            char text[500];
+            data.origin[0] = far_off ? 1000.0 : 0.0;
+            for (int k = 0; k < GRAINS; k++)
+                place[k][0] += (float)data.origin[0];
+            assert_int_equal(cgt_figure_set_lines(figure, settings[i]), CGT_OK);
+            assert_int_equal(cgt_figure_show(figure, &data), CGT_OK);
+            assert_int_equal(cgt_figure_set_camera(figure, &said), CGT_OK);
+            draw(figure, one);
+            assert_int_equal(cgt_figure_set_camera(figure, &zeros), CGT_OK);
+            draw(figure, two);
+            assert_memory_equal(two, one, sizeof two);
+            cgt_figure_get_chosen(figure, NULL, text, sizeof text);
+            assert_int_equal(cgt_figure_set_lines(other, text), CGT_OK);
+            assert_int_equal(cgt_figure_show(other, &data), CGT_OK);
+            draw(other, two);
+            assert_memory_equal(two, one, sizeof two);
+            assert_int_equal(cgt_figure_set_camera(figure, &none), CGT_OK);
+            assert_int_equal(cgt_figure_get_camera(figure, &then), CGT_OK);
+            assert_true(then.eye[2] == 5.0f && then.up[1] == 1.0f && then.fov == 45.0f);
+            for (int k = 0; k < GRAINS; k++)
+                place[k][0] -= (float)data.origin[0];
+            cgt_figure_release(figure);
+            cgt_figure_release(other);
+        }
+}
+
+/* Edges of the box are as thick as the camera asks for that is set after the frame; of a frame that is not kept, from
+ * its next showing on. */
+TEST(lines_follow_the_camera)
+{
+    cgt_figure_data data = grains();
+    for (int c = 0; c < 3; c++)
+        data.box.edges[c][c] = 2.0;
+    for (int is_kept = 0; is_kept < 2; is_kept++) {
+        const cgt_camera camera = {.eye = {3, -90, 9}, .target = {0.5f, 0.5f, 0.5f}, .up = {0, 0, 1}, .fov = 3};
+        cgt_figure *const figure = make_figure(), *const other = make_figure();
+        uint8_t after[BYTES], before[BYTES];
+        cgt_figure_frame *frame = NULL, *same = NULL;
+        assert_int_equal(cgt_figure_set(figure, "box", NULL), CGT_OK);
+        assert_int_equal(cgt_figure_set(other, "box", NULL), CGT_OK);
+        assert_int_equal(cgt_figure_set_camera(other, &camera), CGT_OK);
+        if (is_kept) {
+            frame = keep(figure, &data);
+            same = keep(other, &data);
+        }
+        assert_int_equal(is_kept ? cgt_figure_show_frame(figure, frame) : cgt_figure_show(figure, &data), CGT_OK);
+        assert_int_equal(is_kept ? cgt_figure_show_frame(other, same) : cgt_figure_show(other, &data), CGT_OK);
+        assert_int_equal(cgt_figure_set_camera(figure, &camera), CGT_OK);
+        if (!is_kept)
+            assert_int_equal(cgt_figure_show(figure, &data), CGT_OK);
+        draw(figure, after);
+        draw(other, before);
+        assert_memory_equal(after, before, sizeof after);
+        cgt_figure_frame_release(frame);
+        cgt_figure_frame_release(same);
+        cgt_figure_release(figure);
+        cgt_figure_release(other);
+    }
+}
+
 /* ---- Pictures ----------------------------------------------------------------------------------------------- */
 
 /* However large the blocks of a quick picture are: one of them has all pixels. */
