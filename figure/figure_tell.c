@@ -175,6 +175,22 @@ static int begins(const char *wanted, const char *name, lines *l)
     return 1;
 }
 
+/* What follows the first camera of a run that moves, where that which is told alone would choose otherwise. */
+static void tell_first_camera(const cgt_figure *figure, const cgt_camera *told, const char *name, lines *l)
+{
+    const figure_options *const o = &figure->options;
+    const float radius = cgt_style_ambient_radius(&figure->path.start);
+    float light[3];
+    cgt_camera_get_key_light(told, o->width, o->height, light);
+    const int is_lit = !o->has_light && memcmp(light, figure->light, sizeof light) != 0;
+    const int is_dark = o->picture.ambient > 0 && o->picture.ambient_radius < 0.0f;
+    if ((name || is_lit) && begins(name, "light", l))
+        add(l, "%s,%s,%s\n", cgt_number(9, (double)figure->light[0]).text, cgt_number(9, (double)figure->light[1]).text,
+            cgt_number(9, (double)figure->light[2]).text);
+    if (!name && is_dark && radius != cgt_style_ambient_radius(told))
+        add(l, "ambient-radius = %s\n", cgt_number(9, (double)radius).text);
+}
+
 static size_t tell_chosen(const cgt_figure *figure, const char *name, int is_run, char *text, size_t size)
 {
     static const char *const axes[] = {"x", "y", "z", "-x", "-y", "-z"};
@@ -199,6 +215,8 @@ static size_t tell_chosen(const cgt_figure *figure, const char *name, int is_run
         add(&l, "%" PRIu32 "x%" PRIu32 "\n", o->width, o->height);
     if (begins(name, "antialias", &l))
         add(&l, "%" PRIu32 "\n", o->samples);
+    if (!is_run)
+        tell_first_camera(figure, &perspective, name, &l);
     if (begins(name, o->by == COLORING_CATEGORY ? "category" : "color", &l)) {
         tell_color(figure, &l);
         add(&l, "\n");

@@ -164,9 +164,11 @@ CGT_API cgt_result cgt_figure_unset(cgt_figure *figure, const char *name);
 CGT_API size_t cgt_figure_get(const cgt_figure *figure, const char *name, char *text, size_t size);
 
 /* Copies settings by which another figure makes the same picture of the shown frame: what was set, and in the place of
- * automatic ones camera, size, antialias, color, range, floor-axis and floor-place as they were chosen; log-scale only
- * where the colours have it.
- *   name   the value of one of these seven; NULL: all settings
+ * automatic ones camera, size, antialias, color, range, floor-axis and floor-place as they were chosen; where the
+ * camera has moved on from that of the first frame, light and ambient-radius, too, which follow that one; log-scale
+ * only where the colours have it. What is of several frames is not told: legends, the colours of words and categories,
+ * and glass are those of the frames that the other figure looks at; speeds and trails need the frames before.
+ *   name   the value of one of these seven, or light; NULL: all settings
  * Returns as cgt_figure_get; 0: nothing was chosen yet. */
 CGT_API size_t cgt_figure_get_chosen(const cgt_figure *figure, const char *name, char *text, size_t size);
 

@@ -317,6 +317,48 @@ TEST(lines_follow_the_camera)
     }
 }
 
+/* Light and occlusion follow the first camera of a run, and are told where the shown one is another. */
+TEST(what_was_chosen_has_the_first_light)
+{
+    static const char *const settings[] = {"orbit = 90\n", "orbit = 90\nlight = 1,2,3\n", "camera-keys = %s\n",
+                                           "camera-keys = %s\nstyle = plain\ndepth-cue = 0.4\n"};
+    const char *const folder = getenv("TMPDIR");
+    char path[300];
+    snprintf(path, sizeof path, "%s/test_figure_calls.keys", folder ? folder : ".");
+    FILE *const keys = fopen(path, "w");
+    assert_non_null(keys);
+    fputs("0 0.5,-6,2,0.5,0.5,0.5,0,0,1,30\n2 4,2,4,0.5,0.5,0.5,0,0,1,40\n", keys);
+    fclose(keys);
+    for (size_t i = 0; i < TEST_COUNT(settings); i++) {
+        cgt_figure *const figure = make_figure(), *const other = make_figure();
+        cgt_figure_data data = grains();
+        uint8_t one[BYTES], two[BYTES];
+        char text[1000], light[100];
+        snprintf(text, sizeof text, settings[i], path);
+        assert_int_equal(cgt_figure_set_lines(figure, text), CGT_OK);
+        for (data.number = 0; data.number < 3; data.number++)
+            assert_int_equal(cgt_figure_survey(figure, &data), CGT_OK);
+        for (data.number = 0; data.number < 3; data.number++) {
+            assert_int_equal(cgt_figure_show(figure, &data), CGT_OK);
+            draw(figure, one);
+            cgt_figure_get_chosen(figure, NULL, text, sizeof text);
+            if ((strstr(text, "light = ") != NULL) != (i == 1 || data.number > 0))
+                fail_msg("frame %d: light in \"%s\"", (int)data.number, text);
+            assert_true(cgt_figure_get_chosen(figure, "light", light, sizeof light) > 0);
+            assert_int_equal(strcmp(light, "1,2,3\n") == 0, i == 1);
+            assert_int_equal(cgt_figure_unset(other, NULL), CGT_OK);
+            assert_int_equal(cgt_figure_set_lines(other, text), CGT_OK);
+            assert_int_equal(cgt_figure_show(other, &data), CGT_OK);
+            draw(other, two);
+            if (memcmp(two, one, sizeof two) != 0)
+                fail_msg("frame %d: another picture by \"%s\"", (int)data.number, text);
+        }
+        cgt_figure_release(figure);
+        cgt_figure_release(other);
+    }
+    remove(path);
+}
+
 /* ---- Pictures ----------------------------------------------------------------------------------------------- */
 
 /* However large the blocks of a quick picture are: one of them has all pixels. */
