@@ -17,8 +17,9 @@
 
 cgt_result cgt_figure_pick(cgt_figure *figure, uint32_t x, uint32_t y, cgt_figure_hit *hit)
 {
+    const cgt_camera *const camera = &figure->camera;
     cgt_look looks[FIGURE_LOOKS];
-    cgt_single_ray ray = {0};
+    cgt_single_ray ray = {.t_min = camera->t_min, .t_max = camera->t_max, .mask = camera->mask};
     cgt_hit found;
     *hit = (cgt_figure_hit){.is_hit = false};
     if (!figure->frame) {
@@ -27,7 +28,7 @@ cgt_result cgt_figure_pick(cgt_figure *figure, uint32_t x, uint32_t y, cgt_figur
     }
     cgt_figure_begin_picture(figure, looks); /* the projection */
     cgt_result result =
-        cgt_camera_get_ray(&figure->camera, figure->options.width, figure->options.height, x, y, ray.org, ray.dir);
+        cgt_camera_get_ray(camera, figure->options.width, figure->options.height, x, y, ray.org, ray.dir);
     if (!result)
         result = cgt_trace_ray(figure->scene, &ray, &found, NULL);
     if (result) {
