@@ -93,7 +93,8 @@ struct cgt_figure {
 
     /* Of <cgt/figure.h> alone. */
     int is_open, is_settled, is_surveying, has_bonds_told;
-    int has_begun;           /* drawing has a picture of the scene as it is */
+    int has_begun;           /* drawing has a picture of the scene as it is, */
+    cgt_camera begun;        /* by this camera */
     survey_team team;        /* while is_surveying */
     uint64_t next;           /* number of the frame that follows the last one */
     figure_data data;        /* the frame at hand, of the caller's columns */

@@ -144,6 +144,7 @@ cgt_result cgt_figure_draw(cgt_figure *figure, const cgt_image *image, const cgt
     if (!result)
         result = cgt_figure_trace(figure, options);
     figure->has_begun = !result;
+    figure->begun = figure->camera;
     return finish(figure, figure->drawing, result);
 }
 
@@ -161,6 +162,7 @@ cgt_result cgt_figure_begin(cgt_figure *figure)
         result = cgt_picture_begin(figure->drawing, figure->scene, &figure->camera, looks, count, NULL);
     }
     figure->has_begun = !result;
+    figure->begun = figure->camera;
     return finish(figure, figure->drawing, result);
 }
 
@@ -174,10 +176,13 @@ cgt_result cgt_figure_read(cgt_figure *figure, const cgt_image *image)
 {
     if (!figure->has_begun)
         return refuse(figure, "no picture has begun");
+    const cgt_camera next = figure->camera; /* one may have been set since */
     figure->image = *image;
     const cgt_result result = cgt_picture_read(figure->drawing, image);
+    figure->camera = figure->begun;
     if (!result)
         cgt_figure_draw_overlay(figure);
+    figure->camera = next;
     return finish(figure, figure->drawing, result);
 }
 

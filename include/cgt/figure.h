@@ -21,7 +21,7 @@
  * Conventions are those of cgt.h and picture.h. Options and data are in the data's own coordinates, whatever origin is
  * subtracted from them.
  * Errors   Functions give a cgt_result; the figure has the sentence. A call of cgt_figure_set that fails changes
- *          nothing; after another one that fails the survey begins anew.
+ *          nothing, but may end a picture that has begun; after another one that fails the survey begins anew.
  * Threads  One thread at a time calls a figure; beside it one more may be in cgt_figure_keep, with the option trails
  *          not while a frame is shown or an option set.
  * Numbers  are read and written with a point, whatever the locale of the process is. */
@@ -262,8 +262,9 @@ CGT_API void cgt_figure_set_stop(cgt_figure *figure, bool (*stop)(const void *us
 CGT_API cgt_result cgt_figure_draw(cgt_figure *figure, const cgt_image *image, const cgt_trace_options *options);
 
 /* The same in steps, as cgt_picture_begin, _step and _read; the background is never transparent. After the last step
- * the picture is that of cgt_figure_draw. Errors: as cgt_figure_draw; INVALID_ARGUMENT (no picture has begun since a
- * frame was shown or released, or an option set) */
+ * the picture is that of cgt_figure_draw. A camera that is set meanwhile is that of the next picture.
+ * Errors: as cgt_figure_draw; INVALID_ARGUMENT (no picture has begun since a frame was shown or released, or an option
+ *         set; an option that the shown frame refuses ends a picture, too) */
 CGT_API cgt_result cgt_figure_begin(cgt_figure *figure);
 CGT_API cgt_result cgt_figure_step(cgt_figure *figure, uint32_t samples, uint32_t *left);
 CGT_API cgt_result cgt_figure_read(cgt_figure *figure, const cgt_image *image);
@@ -292,7 +293,8 @@ typedef struct cgt_figure_hit {
     float place[3]; /* less the data's origin */
 } cgt_figure_hit;
 
-/* Finds it. Errors: INVALID_ARGUMENT: nothing is shown */
+/* Finds it, within t_min, t_max and mask of the camera. Errors: INVALID_ARGUMENT (nothing is shown; a pixel that is not
+ * in the picture) */
 CGT_API cgt_result cgt_figure_pick(cgt_figure *figure, uint32_t x, uint32_t y, cgt_figure_hit *hit);
 
 /* Copies what is known of a particle or triangle of the shown frame, in lines: number, id, type, element; of particles

@@ -378,4 +378,98 @@ TEST(blocks_are_of_any_size)
     cgt_figure_release(figure);
 }
 
+/* Texts are where the camera of the picture sees what they name, whatever camera is set between its steps. Labels are
+ * drawn there, without FreeType nothing is. */
+TEST(texts_follow_the_picture)
+{
+    cgt_figure *const figure = make_figure();
+    const cgt_figure_data data = grains();
+    uint8_t one[BYTES], two[BYTES];
+    const cgt_image image = {.bytes = two};
+    uint32_t left;
+    cgt_camera camera;
+    if (cgt_figure_set_lines(figure, "axes\nlabel = charge > 2\n") == CGT_OK &&
+        cgt_figure_show(figure, &data) == CGT_OK) {
+        for (int is_whole = 0; is_whole < 2; is_whole++) {
+            if (is_whole)
+                draw(figure, one);
+            else
+                assert_int_equal(cgt_figure_begin(figure), CGT_OK);
+            assert_int_equal(cgt_figure_step(figure, UINT32_MAX, &left), CGT_OK);
+            assert_int_equal(cgt_figure_read(figure, &(cgt_image){.bytes = one}), CGT_OK);
+            assert_int_equal(cgt_figure_get_camera(figure, &camera), CGT_OK);
+            camera.eye[0] += 3.0f;
+            camera.fov = 15.0f;
+            assert_int_equal(cgt_figure_set_camera(figure, &camera), CGT_OK);
+            assert_int_equal(cgt_figure_read(figure, &image), CGT_OK);
+            assert_memory_equal(two, one, sizeof two);
+            draw(figure, two); /* by the other camera */
+            assert_memory_not_equal(two, one, sizeof two);
+        }
+    } else
+        expect_message(figure, "FreeType");
+    cgt_figure_release(figure);
+}
+
+/* With kept frames an option that is refused leaves the frame, and the next picture is that of before. */
+TEST(pictures_begin_after_what_was_refused)
+{
+    cgt_figure *const figure = make_figure();
+    const cgt_figure_data data = grains();
+    uint8_t one[BYTES], two[BYTES];
+    uint32_t left;
+    cgt_figure_frame *const frame = keep(figure, &data);
+    assert_int_equal(cgt_figure_show_frame(figure, frame), CGT_OK);
+    draw(figure, one);
+    assert_int_equal(cgt_figure_begin(figure), CGT_OK);
+    assert_int_equal(cgt_figure_set(figure, "fov", "x"), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_step(figure, 1, &left), CGT_OK); /* what can be told without the frame */
+    assert_int_equal(cgt_figure_set(figure, "color", "warmth"), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_step(figure, 1, &left), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_begin(figure), CGT_OK);
+    assert_int_equal(cgt_figure_step(figure, UINT32_MAX, &left), CGT_OK);
+    assert_int_equal(cgt_figure_read(figure, &(cgt_image){.bytes = two}), CGT_OK);
+    assert_memory_equal(two, one, sizeof two);
+    cgt_figure_frame_release(frame);
+    cgt_figure_release(figure);
+}
+
+/* A pixel has what the picture has there: what the camera's range and mask leave out is not found. */
+TEST(pixels_have_what_the_camera_sees)
+{
+    static const uint32_t masks[] = {1, 3, 4}; /* what is opaque, all, nothing */
+    cgt_figure *const figure = make_figure();
+    const cgt_figure_data data = grains();
+    cgt_camera all, some;
+    float square = 0.0f;
+    uint8_t rgb[BYTES];
+    assert_int_equal(cgt_figure_set_lines(figure, "style = plain\nantialias = 1\nbackground = white\n"
+                                                  "opacity = charge > 2=0.5\n"),
+                     CGT_OK);
+    assert_int_equal(cgt_figure_show(figure, &data), CGT_OK);
+    assert_int_equal(cgt_figure_get_camera(figure, &all), CGT_OK);
+    for (int c = 0; c < 3; c++)
+        square += (all.eye[c] - all.target[c]) * (all.eye[c] - all.target[c]);
+    for (int way = 0; way < 7; way++) {
+        uint32_t hits = 0;
+        some = all;
+        some.t_min = way == 1 ? 1e6f : way == 2 ? sqrtf(square) : 0.0f; /* all, and some of the grains */
+        some.t_max = way == 3 ? 1e-3f : 0.0f;
+        some.mask = way > 3 ? masks[way - 4] : 0;
+        assert_int_equal(cgt_figure_set_camera(figure, &some), CGT_OK);
+        draw(figure, rgb);
+        for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+            cgt_figure_hit hit;
+            assert_int_equal(cgt_figure_pick(figure, i % WIDTH, i / WIDTH, &hit), CGT_OK);
+            const int is_white = rgb[3 * i] == 255 && rgb[3 * i + 1] == 255 && rgb[3 * i + 2] == 255;
+            if (hit.is_hit == is_white)
+                fail_msg("way %d, pixel %u: %s", way, i, is_white ? "found, not drawn" : "drawn, not found");
+            hits += hit.is_hit;
+        }
+        if ((hits > 0) != (way == 0 || way == 2 || way == 4 || way == 5))
+            fail_msg("way %d: %u hits", way, hits);
+    }
+    cgt_figure_release(figure);
+}
+
 SEEDED_SUITE("test_figure_calls", make_context, release_context)
