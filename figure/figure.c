@@ -11,6 +11,7 @@
 
 #include "figure_state.h"
 #include "options/figure_values.h"
+#include "options/numbers.h"
 #include "options/option_row.h"
 #include "survey/origin.h"
 
@@ -47,9 +48,11 @@ void cgt_figure_begin_again(cgt_figure *figure)
     cgt_figure_settings_replay(&figure->given, &figure->options, ignored, sizeof ignored);
 }
 
-cgt_result cgt_figure_result(const cgt_figure *figure)
+cgt_result cgt_figure_result(cgt_figure *figure)
 {
-    return strstr(figure->message, "out of memory") ? CGT_ERROR_OUT_OF_MEMORY : CGT_ERROR_INVALID_ARGUMENT;
+    const cgt_result told = figure->failure;
+    figure->failure = CGT_OK;
+    return told ? told : cgt_tells_of_memory(figure->message) ? CGT_ERROR_OUT_OF_MEMORY : CGT_ERROR_INVALID_ARGUMENT;
 }
 
 static cgt_result fail_frame(cgt_figure *figure)

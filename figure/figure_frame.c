@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "options/numbers.h"
 #include "options/option_row.h"
 
 /* ---- Keeping ------------------------------------------------------------------------------------------------ */
@@ -37,7 +38,7 @@ static int open_keeping(cgt_figure *figure)
 cgt_result cgt_figure_begin_keep(cgt_figure *figure, uint64_t *lead)
 {
     if (!figure->keeping.is_on && open_keeping(figure))
-        return CGT_ERROR_OUT_OF_MEMORY;
+        return cgt_figure_result(figure);
     if (figure->has_survey && !figure->is_settled && cgt_figure_choose(figure, NULL)) {
         cgt_figure_begin_again(figure);
         return cgt_figure_result(figure);
@@ -90,24 +91,27 @@ cgt_result cgt_figure_keep(cgt_figure *figure, const cgt_figure_data *data, cgt_
     frame_keeping *const k = &figure->keeping;
     notices told = {.count = 0};
     const char *notice;
+    char why[FIGURE_MESSAGE_SIZE]; /* not that of the figure, which another thread may call */
     size_t used = 0;
     if (frame)
         *frame = NULL;
     if (size)
         *text = '\0';
-    int failed = !k->is_on || take(k, data, &told, text, size);
+    int failed = !k->is_on || take(k, data, &told, why, sizeof why);
     if (!k->is_on)
-        snprintf(text, size, "cgt_figure_begin_keep comes first");
+        snprintf(why, sizeof why, "cgt_figure_begin_keep comes first");
     while ((notice = cgt_notices_take(&told)) != NULL)
         if (!failed && used < size)
             used += (size_t)snprintf(text + used, size - used, used ? "; %s" : "%s", notice);
     if (!failed && frame && !(*frame = copy_frame(&k->sequence))) {
         failed = 1;
-        snprintf(text, size, "out of memory for frame %llu", (unsigned long long)k->sequence.frame.number);
+        snprintf(why, sizeof why, "out of memory for frame %llu", (unsigned long long)k->sequence.frame.number);
     }
-    return !failed                                         ? CGT_OK
-           : text && size && strstr(text, "out of memory") ? CGT_ERROR_OUT_OF_MEMORY
-                                                           : CGT_ERROR_INVALID_ARGUMENT;
+    if (!failed)
+        return CGT_OK;
+    if (size)
+        snprintf(text, size, "%s", why);
+    return cgt_tells_of_memory(why) ? CGT_ERROR_OUT_OF_MEMORY : CGT_ERROR_INVALID_ARGUMENT;
 }
 
 size_t cgt_figure_frame_get_bytes(const cgt_figure_frame *frame) { return frame->bytes; }
@@ -367,6 +371,7 @@ static int follow(cgt_figure *figure, const changed_options *changed, figure_opt
     figure->has_hand = had_hand && was.keeps_camera;
     if ((is_small ? change_picture(figure, next) : change_all(figure, next, &was)) == 0)
         return 0;
+    const cgt_result failure = figure->failure;
     memcpy(why, figure->message, sizeof why);
     cgt_camera_keys_free(&next->keys);
     figure->has_hand = had_hand;
@@ -377,6 +382,7 @@ static int follow(cgt_figure *figure, const changed_options *changed, figure_opt
         (is_small ? change_picture(figure, next) : change_all(figure, next, &was)))
         cgt_figure_begin_again(figure);
     memcpy(figure->message, why, sizeof why);
+    figure->failure = failure;
     return -1;
 }
 

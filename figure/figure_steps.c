@@ -52,7 +52,7 @@ cgt_result cgt_figure_set_camera(cgt_figure *figure, const cgt_camera *camera)
     hand.projection = CGT_PROJECTION_PERSPECTIVE;
     put_defaults(&hand);
     if (check_camera(figure, &hand))
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_figure_result(figure);
     figure->hand = hand;
     figure->has_hand = figure->has_moved = 1;
     if (figure->is_settled)
@@ -65,7 +65,7 @@ cgt_result cgt_figure_fit(cgt_figure *figure)
     const cgt_trajectory_frame *const f = figure->frame;
     if (!f) {
         cgt_figure_fail(figure, "nothing is shown");
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_figure_result(figure);
     }
     const int has_spheres = f->kind == CGT_TRAJECTORY_SPHERES;
     const particles *const p = has_spheres && figure->parts.selects ? &figure->drawn.particles : NULL;
@@ -83,7 +83,7 @@ cgt_result cgt_figure_fit(cgt_figure *figure)
     if (cgt_camera_fit_spheres(&fitted, figure->options.width, figure->options.height,
                                has_spheres ? &spheres : &vertices)) {
         cgt_figure_fail(figure, "there is nothing to fit the camera to");
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_figure_result(figure);
     }
     memcpy(camera.eye, fitted.eye, sizeof camera.eye);
     memcpy(camera.target, fitted.target, sizeof camera.target);
@@ -101,7 +101,7 @@ void cgt_figure_set_stop(cgt_figure *figure, bool (*stop)(const void *user), con
 static cgt_result refuse(cgt_figure *figure, const char *sentence)
 {
     cgt_figure_fail(figure, "%s", sentence);
-    return CGT_ERROR_INVALID_ARGUMENT;
+    return cgt_figure_result(figure);
 }
 
 /* Before a picture of any kind. is_whole: lines are as thick as the camera asks for. */
@@ -130,6 +130,7 @@ static cgt_result finish(cgt_figure *figure, const cgt_picture *picture, cgt_res
         cgt_picture_get_error_message(picture, figure->message, sizeof figure->message);
     if (result && (!picture || !*figure->message))
         cgt_figure_fail(figure, "cannot draw: %s", cgt_get_result_string(result));
+    figure->failure = CGT_OK; /* it is told here */
     return result;
 }
 

@@ -24,7 +24,7 @@ cgt_result cgt_figure_pick(cgt_figure *figure, uint32_t x, uint32_t y, cgt_figur
     *hit = (cgt_figure_hit){.is_hit = false};
     if (!figure->frame) {
         cgt_figure_fail(figure, "nothing is shown");
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_figure_result(figure);
     }
     cgt_figure_begin_picture(figure, looks); /* the projection */
     cgt_result result =
@@ -33,7 +33,7 @@ cgt_result cgt_figure_pick(cgt_figure *figure, uint32_t x, uint32_t y, cgt_figur
         result = cgt_trace_ray(figure->scene, &ray, &found, NULL);
     if (result) {
         cgt_figure_fail_library(figure, "pick", result);
-        return result;
+        return cgt_figure_result(figure);
     }
     hit->is_hit = found.primitive != CGT_INVALID_ID;
     hit->t = found.t;

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "options/numbers.h"
 #include "options/option_row.h"
 
 int cgt_figure_settings_replay(const figure_settings *s, figure_options *options, char *error, size_t size)
@@ -16,7 +17,8 @@ int cgt_figure_settings_replay(const figure_settings *s, figure_options *options
     cgt_figure_options_init(options);
     for (size_t i = 0; i < s->count; i++)
         if (cgt_option_set(cgt_figure_find_row(s->list[i].name), s->list[i].value, options, reason, sizeof reason)) {
-            snprintf(error, size, "%s: %s", s->list[i].name, reason);
+            const int is_memory = cgt_tells_of_memory(reason);
+            snprintf(error, size, "%s%s%s", is_memory ? "" : s->list[i].name, is_memory ? "" : ": ", reason);
             return -1;
         }
     return cgt_figure_options_finish(options, error, size);

@@ -10,7 +10,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include <cgt/figure.h>
+#include "figure_state.h"
+
+#if defined __linux__ && !defined __SANITIZE_ADDRESS__ && !defined __SANITIZE_THREAD__
+#include <sys/resource.h>
+#define CAN_LIMIT_MEMORY /* sanitizers have memory of their own */
+#endif
 
 enum { GRAINS = 4, WIDTH = 60, HEIGHT = 45, BYTES = 3 * WIDTH * HEIGHT };
 
@@ -471,5 +476,82 @@ TEST(pixels_have_what_the_camera_sees)
     }
     cgt_figure_release(figure);
 }
+
+/* ---- What fails --------------------------------------------------------------------------------------------- */
+
+/* The result is not guessed from words of the user. */
+TEST(words_are_no_results)
+{
+    static const char words[] = "out of memory";
+    const cgt_figure_column column = {.name = words};
+    cgt_figure *const figure = make_figure();
+    cgt_figure_data data = grains();
+    cgt_figure_frame *frame;
+    char text[300];
+    uint64_t lead;
+    cgt_figure_set_source(figure, words);
+    assert_int_equal(cgt_figure_set(figure, words, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_set(figure, "color", words), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_set(figure, "colormap", words), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_set(figure, "camera-keys", words), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_set(figure, "show", "\"out of memory\""), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_set(figure, "box", NULL), CGT_OK);
+    assert_int_equal(cgt_figure_show(figure, &data), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "out of memory: frame 0: --box");
+    assert_int_equal(cgt_figure_unset(figure, "box"), CGT_OK);
+    data.points.columns = &column;
+    assert_int_equal(cgt_figure_show(figure, &data), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, words);
+    assert_int_equal(cgt_figure_begin_keep(figure, &lead), CGT_OK);
+    assert_int_equal(cgt_figure_keep(figure, &data, &frame, text, sizeof text), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_keep(figure, &data, &frame, NULL, 0), CGT_ERROR_INVALID_ARGUMENT);
+    cgt_figure_release(figure);
+}
+
+/* It is that of what has failed: of the library, the sentence of a layer below, the figure's own. None outlives its
+ * call. */
+TEST(results_are_of_what_has_failed)
+{
+    cgt_figure *const figure = make_figure();
+    cgt_figure_fail_library(figure, "build", CGT_ERROR_TOO_LARGE);
+    assert_int_equal(cgt_figure_result(figure), CGT_ERROR_TOO_LARGE);
+    snprintf(figure->message, sizeof figure->message, "out of memory for 3 spheres");
+    assert_int_equal(cgt_figure_result(figure), CGT_ERROR_OUT_OF_MEMORY);
+    cgt_figure_fail(figure, "out of memory for %s", "the mesh");
+    assert_int_equal(cgt_figure_result(figure), CGT_ERROR_OUT_OF_MEMORY);
+    cgt_figure_fail(figure, "%s", "out of memory for the mesh");
+    assert_int_equal(cgt_figure_result(figure), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_figure_set(figure, "style", "x"), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(figure->failure, CGT_OK);
+    assert_int_equal(cgt_figure_fit(figure), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(figure->failure, CGT_OK);
+    assert_int_equal(cgt_figure_begin(figure), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(figure->failure, CGT_OK);
+    cgt_figure_release(figure);
+}
+
+#ifdef CAN_LIMIT_MEMORY
+/* Where there is no memory for a frame, the call says so, also without a text. */
+TEST(frames_need_memory)
+{
+    enum { MANY = 1 << 20 };
+    static float many[MANY][3];
+    cgt_figure *const figure = make_figure();
+    const cgt_figure_data data = {.points = {.count = MANY, .positions = cgt_floats(many[0], 0)}};
+    cgt_figure_frame *frame;
+    struct rlimit before, none;
+    uint64_t lead;
+    assert_int_equal(cgt_figure_begin_keep(figure, &lead), CGT_OK);
+    assert_int_equal(getrlimit(RLIMIT_AS, &before), 0);
+    none = before;
+    none.rlim_cur = 1 << 20; /* less than there is: no more */
+    assert_int_equal(setrlimit(RLIMIT_AS, &none), 0);
+    const cgt_result result = cgt_figure_keep(figure, &data, &frame, NULL, 0);
+    assert_int_equal(setrlimit(RLIMIT_AS, &before), 0);
+    assert_int_equal(result, CGT_ERROR_OUT_OF_MEMORY);
+    assert_null(frame);
+    cgt_figure_release(figure);
+}
+#endif
 
 SEEDED_SUITE("test_figure_calls", make_context, release_context)
