@@ -11,6 +11,7 @@
 
 #include "figure_state.h"
 #include "options/figure_values.h"
+#include "options/numbers.h"
 #include "options/option_row.h"
 #include "survey/origin.h"
 
@@ -47,9 +48,11 @@ void cgt_figure_begin_again(cgt_figure *figure)
     cgt_figure_settings_replay(&figure->given, &figure->options, ignored, sizeof ignored);
 }
 
-cgt_result cgt_figure_result(const cgt_figure *figure)
+cgt_result cgt_figure_result(cgt_figure *figure)
 {
-    return strstr(figure->message, "out of memory") ? CGT_ERROR_OUT_OF_MEMORY : CGT_ERROR_INVALID_ARGUMENT;
+    const cgt_result told = figure->failure;
+    figure->failure = CGT_OK;
+    return told ? told : cgt_tells_of_memory(figure->message) ? CGT_ERROR_OUT_OF_MEMORY : CGT_ERROR_INVALID_ARGUMENT;
 }
 
 static cgt_result fail_frame(cgt_figure *figure)
@@ -152,7 +155,7 @@ bool cgt_figure_get_option(uint32_t index, cgt_figure_option *option)
 
 static cgt_result change(cgt_figure *figure, settings_change change, const char *name, const char *value)
 {
-    if (figure->keeping.is_on && figure->is_settled)
+    if (figure->keeping.is_on)
         return cgt_figure_change(figure, change, name, value);
     if (cgt_figure_settings_change(&figure->given, change, name, value, &figure->options, figure->message,
                                    sizeof figure->message))
@@ -331,7 +334,7 @@ int cgt_figure_choose(cgt_figure *figure, const figure_found *was)
         return -1;
     if (keeps_floor)
         floor->has_place = was->floor.has_place;
-    if (trails && !figure->keeping.is_on && !(figure->sequence.trails = cgt_trail_history_create(trails)))
+    if (trails && !(figure->sequence.trails = cgt_trail_history_create(trails)))
         return cgt_figure_fail(figure, "out of memory for the trails");
     if (figure->has_hand)
         cgt_figure_take_hand(figure);

@@ -335,7 +335,9 @@ int cgt_figure_open_picture(cgt_figure *figure)
     if (result) {
         char reason[256];
         cgt_picture_get_error_message(figure->drawing, reason, sizeof reason);
-        return cgt_figure_fail(figure, "cannot make pictures: %s", reason);
+        cgt_figure_fail(figure, "cannot make pictures: %s", reason);
+        figure->failure = result;
+        return -1;
     }
     return 0;
 }

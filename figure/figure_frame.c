@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "options/numbers.h"
 #include "options/option_row.h"
 
 /* ---- Keeping ------------------------------------------------------------------------------------------------ */
@@ -37,7 +38,7 @@ static int open_keeping(cgt_figure *figure)
 cgt_result cgt_figure_begin_keep(cgt_figure *figure, uint64_t *lead)
 {
     if (!figure->keeping.is_on && open_keeping(figure))
-        return CGT_ERROR_OUT_OF_MEMORY;
+        return cgt_figure_result(figure);
     if (figure->has_survey && !figure->is_settled && cgt_figure_choose(figure, NULL)) {
         cgt_figure_begin_again(figure);
         return cgt_figure_result(figure);
@@ -90,24 +91,27 @@ cgt_result cgt_figure_keep(cgt_figure *figure, const cgt_figure_data *data, cgt_
     frame_keeping *const k = &figure->keeping;
     notices told = {.count = 0};
     const char *notice;
+    char why[FIGURE_MESSAGE_SIZE]; /* not that of the figure, which another thread may call */
     size_t used = 0;
     if (frame)
         *frame = NULL;
     if (size)
         *text = '\0';
-    int failed = !k->is_on || take(k, data, &told, text, size);
+    int failed = !k->is_on || take(k, data, &told, why, sizeof why);
     if (!k->is_on)
-        snprintf(text, size, "cgt_figure_begin_keep comes first");
+        snprintf(why, sizeof why, "cgt_figure_begin_keep comes first");
     while ((notice = cgt_notices_take(&told)) != NULL)
         if (!failed && used < size)
             used += (size_t)snprintf(text + used, size - used, used ? "; %s" : "%s", notice);
     if (!failed && frame && !(*frame = copy_frame(&k->sequence))) {
         failed = 1;
-        snprintf(text, size, "out of memory for frame %llu", (unsigned long long)k->sequence.frame.number);
+        snprintf(why, sizeof why, "out of memory for frame %llu", (unsigned long long)k->sequence.frame.number);
     }
-    return !failed                                         ? CGT_OK
-           : text && size && strstr(text, "out of memory") ? CGT_ERROR_OUT_OF_MEMORY
-                                                           : CGT_ERROR_INVALID_ARGUMENT;
+    if (!failed)
+        return CGT_OK;
+    if (size)
+        snprintf(text, size, "%s", why);
+    return cgt_tells_of_memory(why) ? CGT_ERROR_OUT_OF_MEMORY : CGT_ERROR_INVALID_ARGUMENT;
 }
 
 size_t cgt_figure_frame_get_bytes(const cgt_figure_frame *frame) { return frame->bytes; }
@@ -184,17 +188,28 @@ static int settle_by(cgt_figure *figure, const cgt_figure_frame *frame)
     return cgt_figure_choose(figure, NULL);
 }
 
+/* Trails are of the figure's own frames. */
+static int check_trails(cgt_figure *figure)
+{
+    if (!figure->options.particles.trails || figure->keeping.sequence.trails)
+        return 0;
+    return cgt_figure_fail(figure, "trails: another figure has kept the frame, and this one none before it");
+}
+
 static int show_kept(cgt_figure *figure, cgt_figure_frame *frame)
 {
     if (!figure->is_settled && settle_by(figure, frame)) {
         cgt_figure_begin_again(figure);
         return -1;
     }
+    if (frame->shown_by && frame->shown_by != figure)
+        cgt_figure_unshow(frame->shown_by); /* the frame knows one figure alone */
     if (figure->shown)
         figure->shown->shown_by = NULL;
     figure->shown = frame;
     frame->shown_by = figure;
-    if (take_kept(figure, frame) || cgt_figure_check_frame(figure) || cgt_figure_build(figure, 1)) {
+    if (check_trails(figure) || take_kept(figure, frame) || cgt_figure_check_frame(figure) ||
+        cgt_figure_build(figure, 1)) {
         cgt_figure_unshow(figure);
         return -1;
     }
@@ -208,12 +223,30 @@ cgt_result cgt_figure_show_frame(cgt_figure *figure, cgt_figure_frame *frame)
 
 /* ---- Other options ------------------------------------------------------------------------------------------ */
 
-/* Whether a name is among those of a list with blanks around them; NULL, all options, is. */
+/* What changes: the option of a name, or those of lines; both NULL: all options. */
+typedef struct changed_options {
+    const char *name, *lines;
+} changed_options;
+
+/* Whether a name is among those of a list with blanks around them. */
 static int is_among(const char *name, const char *list)
 {
     char word[32];
-    snprintf(word, sizeof word, " %.24s ", name ? name : "");
-    return !name || strstr(list, word) != NULL;
+    snprintf(word, sizeof word, " %.24s ", name);
+    return strstr(list, word) != NULL;
+}
+
+/* Whether one of the options is among those of such a list. */
+static int are_among(const changed_options *changed, const char *list)
+{
+    const char *line = changed->lines;
+    settings_line l;
+    int is_one = changed->name ? is_among(changed->name, list) : !line;
+    while (line && *line) {
+        line = cgt_figure_settings_line(line, &l);
+        is_one |= is_among(l.name, list);
+    }
+    return is_one;
 }
 
 /* Options that change how the scene is drawn, and not the scene. */
@@ -278,14 +311,14 @@ static int change_all(cgt_figure *figure, figure_options *next, const figure_fou
     return cgt_figure_open_picture(figure);
 }
 
-static void find_kept(const cgt_figure *figure, const char *name, figure_found *was)
+static void find_kept(const cgt_figure *figure, const changed_options *changed, figure_found *was)
 {
-    const int is_of_camera = is_among(name, " camera camera-keys orbit view up fov zoom ");
-    const int is_of_colors =
-        is_among(name, " color category range log-scale ") || (is_of_camera && figure->coloring.by == COLORING_HEIGHT);
+    const int is_of_camera = are_among(changed, " camera camera-keys orbit view up fov zoom ");
+    const int is_of_colors = are_among(changed, " color category range log-scale ") ||
+                             (is_of_camera && figure->coloring.by == COLORING_HEIGHT);
     *was = (figure_found){.keeps_colors = !is_of_colors,
                           .keeps_camera = !is_of_camera,
-                          .keeps_floor = !is_among(name, " floor floor-axis floor-height floor-place "),
+                          .keeps_floor = !are_among(changed, " floor floor-axis floor-height floor-place "),
                           .has_kinds = figure->sequence.wants_kinds,
                           .by = figure->coloring.by,
                           .min = figure->coloring.min,
@@ -322,14 +355,14 @@ static int check_keeping(cgt_figure *figure, const figure_options *next)
 }
 
 /* Has the figure follow the options `next`; where it cannot, those of its settings again. */
-static int follow(cgt_figure *figure, const char *name, figure_options *next)
+static int follow(cgt_figure *figure, const changed_options *changed, figure_options *next)
 {
     char ignored[FIGURE_MESSAGE_SIZE], why[FIGURE_MESSAGE_SIZE];
     figure_found was;
-    find_kept(figure, name, &was);
-    const int is_small = is_of_picture(figure, name, next), had_hand = figure->has_hand;
-    if (!is_small && !figure->shown && !(was.keeps_colors && was.keeps_camera)) {
-        cgt_figure_forget(figure); /* there is no frame to find them by */
+    find_kept(figure, changed, &was);
+    const int is_small = is_of_picture(figure, changed->name, next), had_hand = figure->has_hand;
+    if (!figure->is_settled || (!is_small && !figure->shown && !(was.keeps_colors && was.keeps_camera))) {
+        cgt_figure_forget(figure); /* nothing was chosen, or there is no frame to find it by */
         cgt_camera_keys_free(&figure->options.keys);
         figure->options = *next;
         memset(&next->keys, 0, sizeof next->keys);
@@ -338,6 +371,7 @@ static int follow(cgt_figure *figure, const char *name, figure_options *next)
     figure->has_hand = had_hand && was.keeps_camera;
     if ((is_small ? change_picture(figure, next) : change_all(figure, next, &was)) == 0)
         return 0;
+    const cgt_result failure = figure->failure;
     memcpy(why, figure->message, sizeof why);
     cgt_camera_keys_free(&next->keys);
     figure->has_hand = had_hand;
@@ -348,11 +382,13 @@ static int follow(cgt_figure *figure, const char *name, figure_options *next)
         (is_small ? change_picture(figure, next) : change_all(figure, next, &was)))
         cgt_figure_begin_again(figure);
     memcpy(figure->message, why, sizeof why);
+    figure->failure = failure;
     return -1;
 }
 
 cgt_result cgt_figure_change(cgt_figure *figure, settings_change change, const char *name, const char *value)
 {
+    const changed_options changed = {name, change == SETTINGS_LINES ? value : NULL};
     figure_settings next = {.count = 0};
     figure_options *const options = calloc(1, sizeof *options); /* too large for some stacks */
     int failed = 1;
@@ -360,7 +396,7 @@ cgt_result cgt_figure_change(cgt_figure *figure, settings_change change, const c
         cgt_figure_fail(figure, "out of memory for options");
     else if (cgt_figure_settings_change(&next, change, name, value, options, figure->message, sizeof figure->message) ==
              0)
-        failed = check_keeping(figure, options) || follow(figure, name, options);
+        failed = check_keeping(figure, options) || follow(figure, &changed, options);
     if (!failed) {
         const figure_settings before = figure->given;
         figure->given = next;

@@ -21,14 +21,17 @@ int cgt_figure_fail(cgt_figure *figure, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(figure->message, sizeof figure->message, format, arguments);
     va_end(arguments);
+    figure->failure = cgt_tells_of_memory(format) ? CGT_ERROR_OUT_OF_MEMORY : CGT_ERROR_INVALID_ARGUMENT;
     return -1;
 }
 
 static int fail_frame(cgt_figure *figure, const char *action, const char *message, cgt_result result)
 {
-    return cgt_figure_fail(figure, "%s: frame %" PRIu64 ": cannot %s: %s", figure->source,
-                           figure->frame ? figure->frame->number : 0, action,
-                           *message ? message : cgt_get_result_string(result));
+    cgt_figure_fail(figure, "%s: frame %" PRIu64 ": cannot %s: %s", figure->source,
+                    figure->frame ? figure->frame->number : 0, action,
+                    *message ? message : cgt_get_result_string(result));
+    figure->failure = result;
+    return -1;
 }
 
 int cgt_figure_fail_library(cgt_figure *figure, const char *action, cgt_result result)

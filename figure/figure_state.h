@@ -56,6 +56,7 @@ struct cgt_figure {
     figure_data mesh;      /* that stands still; without triangles: there is none */
     notices notices;       /* what a user should read */
     char message[FIGURE_MESSAGE_SIZE];
+    cgt_result failure; /* what cgt_figure_fail and its like have told; CGT_OK: a layer below wrote the message */
     int has_hand;
     cgt_camera hand; /* of all frames, in place of that of the options; where has_hand */
     frame_keeping keeping;
@@ -93,7 +94,8 @@ struct cgt_figure {
 
     /* Of <cgt/figure.h> alone. */
     int is_open, is_settled, is_surveying, has_bonds_told;
-    int has_begun;           /* drawing has a picture of the scene as it is */
+    int has_begun;           /* drawing has a picture of the scene as it is, */
+    cgt_camera begun;        /* by this camera */
     survey_team team;        /* while is_surveying */
     uint64_t next;           /* number of the frame that follows the last one */
     figure_data data;        /* the frame at hand, of the caller's columns */
@@ -126,14 +128,15 @@ static inline const camera_directions *figure_fit(const cgt_figure *figure)
     return &figure->fit[figure->survey.kind == CGT_TRAJECTORY_TRIANGLES];
 }
 
-/* All return -1: a sentence; that there is no memory for something; the library's message about an action that has
- * failed, of the context or of figure->drawing. */
+/* All return -1: a sentence, of memory or of what is wrong; the library's message about an action that has failed, of
+ * the context or of figure->drawing. */
 int cgt_figure_fail(cgt_figure *figure, const char *format, ...) __attribute__((format(printf, 2, 3)));
 int cgt_figure_fail_library(cgt_figure *figure, const char *action, cgt_result result);
 int cgt_figure_fail_picture(cgt_figure *figure, cgt_result result);
 
-/* Of figure->message; layers below tell by their sentence alone what has failed. */
-cgt_result cgt_figure_result(const cgt_figure *figure);
+/* The result of what has failed, once; layers below tell by the beginning of their sentence alone whether it was
+ * memory. Every call of <cgt/figure.h> that fails ends with it. */
+cgt_result cgt_figure_result(cgt_figure *figure);
 
 /* After the survey, which it ends: all choices. was: what stays of those before; NULL: nothing. */
 int cgt_figure_choose(cgt_figure *figure, const figure_found *was);

@@ -11,19 +11,38 @@
 
 /* ---- The camera --------------------------------------------------------------------------------------------- */
 
-/* As the option camera has it: far from 0 its text has fewer digits. */
-static int round_camera(cgt_figure *figure, cgt_camera *camera)
+static int is_zero(const float v[3]) { return v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f; }
+
+/* In place of zeros: styles and texts measure by the camera's numbers, too. */
+static void put_defaults(cgt_camera *camera)
+{
+    cgt_camera usual;
+    cgt_camera_init(&usual);
+    if (is_zero(camera->eye) && is_zero(camera->target) && is_zero(camera->up))
+        memcpy(camera->eye, usual.eye, sizeof camera->eye);
+    if (is_zero(camera->up))
+        memcpy(camera->up, usual.up, sizeof camera->up);
+    if (camera->fov == 0.0f)
+        camera->fov = usual.fov;
+}
+
+/* Refuses what the option camera or a picture would. The camera becomes that of its text, which has fewer digits far
+ * from 0, and all of them near it. */
+static int check_camera(cgt_figure *figure, cgt_camera *camera)
 {
     char text[FIGURE_CAMERA_SIZE], error[256];
+    float org[3], dir[3];
     camera_key key;
     cgt_figure_name_camera(figure, camera, text);
     text[strcspn(text, "\n")] = '\0';
-    cgt_camera_init(&key.camera);
     if (cgt_parse_camera(text, &key, error, sizeof error))
         return cgt_figure_fail(figure, "camera: %s", error);
     if (cgt_camera_key_move(&key, figure->origin))
-        return cgt_figure_fail(figure, "eye and target of the camera are the same point");
-    *camera = key.camera;
+        return cgt_figure_fail(figure, "camera: eye and target are the same point");
+    memcpy(camera->eye, key.camera.eye, sizeof camera->eye);
+    memcpy(camera->target, key.camera.target, sizeof camera->target);
+    if (cgt_camera_get_ray(camera, figure->options.width, figure->options.height, 0, 0, org, dir))
+        return cgt_figure_fail(figure, "camera: its rays are not finite, or t_min and t_max are no range from 0 on");
     return 0;
 }
 
@@ -31,8 +50,9 @@ cgt_result cgt_figure_set_camera(cgt_figure *figure, const cgt_camera *camera)
 {
     cgt_camera hand = *camera;
     hand.projection = CGT_PROJECTION_PERSPECTIVE;
-    if (figure_is_moved(figure) && round_camera(figure, &hand))
-        return CGT_ERROR_INVALID_ARGUMENT;
+    put_defaults(&hand);
+    if (check_camera(figure, &hand))
+        return cgt_figure_result(figure);
     figure->hand = hand;
     figure->has_hand = figure->has_moved = 1;
     if (figure->is_settled)
@@ -45,7 +65,7 @@ cgt_result cgt_figure_fit(cgt_figure *figure)
     const cgt_trajectory_frame *const f = figure->frame;
     if (!f) {
         cgt_figure_fail(figure, "nothing is shown");
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_figure_result(figure);
     }
     const int has_spheres = f->kind == CGT_TRAJECTORY_SPHERES;
     const particles *const p = has_spheres && figure->parts.selects ? &figure->drawn.particles : NULL;
@@ -63,7 +83,7 @@ cgt_result cgt_figure_fit(cgt_figure *figure)
     if (cgt_camera_fit_spheres(&fitted, figure->options.width, figure->options.height,
                                has_spheres ? &spheres : &vertices)) {
         cgt_figure_fail(figure, "there is nothing to fit the camera to");
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_figure_result(figure);
     }
     memcpy(camera.eye, fitted.eye, sizeof camera.eye);
     memcpy(camera.target, fitted.target, sizeof camera.target);
@@ -81,7 +101,7 @@ void cgt_figure_set_stop(cgt_figure *figure, bool (*stop)(const void *user), con
 static cgt_result refuse(cgt_figure *figure, const char *sentence)
 {
     cgt_figure_fail(figure, "%s", sentence);
-    return CGT_ERROR_INVALID_ARGUMENT;
+    return cgt_figure_result(figure);
 }
 
 /* Before a picture of any kind. is_whole: lines are as thick as the camera asks for. */
@@ -110,6 +130,7 @@ static cgt_result finish(cgt_figure *figure, const cgt_picture *picture, cgt_res
         cgt_picture_get_error_message(picture, figure->message, sizeof figure->message);
     if (result && (!picture || !*figure->message))
         cgt_figure_fail(figure, "cannot draw: %s", cgt_get_result_string(result));
+    figure->failure = CGT_OK; /* it is told here */
     return result;
 }
 
@@ -124,6 +145,7 @@ cgt_result cgt_figure_draw(cgt_figure *figure, const cgt_image *image, const cgt
     if (!result)
         result = cgt_figure_trace(figure, options);
     figure->has_begun = !result;
+    figure->begun = figure->camera;
     return finish(figure, figure->drawing, result);
 }
 
@@ -141,6 +163,7 @@ cgt_result cgt_figure_begin(cgt_figure *figure)
         result = cgt_picture_begin(figure->drawing, figure->scene, &figure->camera, looks, count, NULL);
     }
     figure->has_begun = !result;
+    figure->begun = figure->camera;
     return finish(figure, figure->drawing, result);
 }
 
@@ -154,10 +177,13 @@ cgt_result cgt_figure_read(cgt_figure *figure, const cgt_image *image)
 {
     if (!figure->has_begun)
         return refuse(figure, "no picture has begun");
+    const cgt_camera next = figure->camera; /* one may have been set since */
     figure->image = *image;
     const cgt_result result = cgt_picture_read(figure->drawing, image);
+    figure->camera = figure->begun;
     if (!result)
         cgt_figure_draw_overlay(figure);
+    figure->camera = next;
     return finish(figure, figure->drawing, result);
 }
 
@@ -208,8 +234,8 @@ cgt_result cgt_figure_draw_quick(cgt_figure *figure, cgt_figure_quality quality,
         return finish(figure, NULL, CGT_ERROR_OUT_OF_MEMORY);
     cgt_picture_options settings = cgt_figure_get_settings(figure);
     simplify(&settings, quality);
-    settings.width = (width + shrink - 1) / shrink;
-    settings.height = (height + shrink - 1) / shrink;
+    settings.width = (width - 1) / shrink + 1; /* no sum that wraps: shrink may be any */
+    settings.height = (height - 1) / shrink + 1;
     cgt_picture **const p = &figure->quick[quality];
     result = *p ? cgt_picture_set_options(*p, &settings) : cgt_picture_create(figure->context, &settings, p);
     if (!result) {

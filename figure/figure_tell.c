@@ -17,22 +17,23 @@
 
 cgt_result cgt_figure_pick(cgt_figure *figure, uint32_t x, uint32_t y, cgt_figure_hit *hit)
 {
+    const cgt_camera *const camera = &figure->camera;
     cgt_look looks[FIGURE_LOOKS];
-    cgt_single_ray ray = {0};
+    cgt_single_ray ray = {.t_min = camera->t_min, .t_max = camera->t_max, .mask = camera->mask};
     cgt_hit found;
     *hit = (cgt_figure_hit){.is_hit = false};
     if (!figure->frame) {
         cgt_figure_fail(figure, "nothing is shown");
-        return CGT_ERROR_INVALID_ARGUMENT;
+        return cgt_figure_result(figure);
     }
     cgt_figure_begin_picture(figure, looks); /* the projection */
     cgt_result result =
-        cgt_camera_get_ray(&figure->camera, figure->options.width, figure->options.height, x, y, ray.org, ray.dir);
+        cgt_camera_get_ray(camera, figure->options.width, figure->options.height, x, y, ray.org, ray.dir);
     if (!result)
         result = cgt_trace_ray(figure->scene, &ray, &found, NULL);
     if (result) {
         cgt_figure_fail_library(figure, "pick", result);
-        return result;
+        return cgt_figure_result(figure);
     }
     hit->is_hit = found.primitive != CGT_INVALID_ID;
     hit->t = found.t;
@@ -175,6 +176,22 @@ static int begins(const char *wanted, const char *name, lines *l)
     return 1;
 }
 
+/* What follows the first camera of a run that moves, where that which is told alone would choose otherwise. */
+static void tell_first_camera(const cgt_figure *figure, const cgt_camera *told, const char *name, lines *l)
+{
+    const figure_options *const o = &figure->options;
+    const float radius = cgt_style_ambient_radius(&figure->path.start);
+    float light[3];
+    cgt_camera_get_key_light(told, o->width, o->height, light);
+    const int is_lit = !o->has_light && memcmp(light, figure->light, sizeof light) != 0;
+    const int is_dark = o->picture.ambient > 0 && o->picture.ambient_radius < 0.0f;
+    if ((name || is_lit) && begins(name, "light", l))
+        add(l, "%s,%s,%s\n", cgt_number(9, (double)figure->light[0]).text, cgt_number(9, (double)figure->light[1]).text,
+            cgt_number(9, (double)figure->light[2]).text);
+    if (!name && is_dark && radius != cgt_style_ambient_radius(told))
+        add(l, "ambient-radius = %s\n", cgt_number(9, (double)radius).text);
+}
+
 static size_t tell_chosen(const cgt_figure *figure, const char *name, int is_run, char *text, size_t size)
 {
     static const char *const axes[] = {"x", "y", "z", "-x", "-y", "-z"};
@@ -199,6 +216,8 @@ static size_t tell_chosen(const cgt_figure *figure, const char *name, int is_run
         add(&l, "%" PRIu32 "x%" PRIu32 "\n", o->width, o->height);
     if (begins(name, "antialias", &l))
         add(&l, "%" PRIu32 "\n", o->samples);
+    if (!is_run)
+        tell_first_camera(figure, &perspective, name, &l);
     if (begins(name, o->by == COLORING_CATEGORY ? "category" : "color", &l)) {
         tell_color(figure, &l);
         add(&l, "\n");

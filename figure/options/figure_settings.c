@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "options/numbers.h"
 #include "options/option_row.h"
 
 int cgt_figure_settings_replay(const figure_settings *s, figure_options *options, char *error, size_t size)
@@ -16,7 +17,8 @@ int cgt_figure_settings_replay(const figure_settings *s, figure_options *options
     cgt_figure_options_init(options);
     for (size_t i = 0; i < s->count; i++)
         if (cgt_option_set(cgt_figure_find_row(s->list[i].name), s->list[i].value, options, reason, sizeof reason)) {
-            snprintf(error, size, "%s: %s", s->list[i].name, reason);
+            const int is_memory = cgt_tells_of_memory(reason);
+            snprintf(error, size, "%s%s%s", is_memory ? "" : s->list[i].name, is_memory ? "" : ": ", reason);
             return -1;
         }
     return cgt_figure_options_finish(options, error, size);
@@ -108,17 +110,23 @@ static int put(figure_settings *s, const char *name, const char *value, size_t l
     return 0;
 }
 
-/* Lines "name = value" or "name". */
+const char *cgt_figure_settings_line(const char *line, settings_line *told)
+{
+    const size_t length = strcspn(line, "\n"), own = strcspn(line, " \n");
+    const int has_value = length >= own + 3 && memcmp(line + own, " = ", 3) == 0;
+    snprintf(told->name, sizeof told->name, "%.*s", (int)(has_value ? own : length), line);
+    told->value = has_value ? line + own + 3 : NULL;
+    told->value_length = has_value ? length - own - 3 : 0;
+    return line + length + (line[length] == '\n');
+}
+
 static int put_lines(figure_settings *s, const char *text, char *error, size_t size)
 {
-    char name[64];
-    for (const char *line = text; *line;) {
-        const size_t length = strcspn(line, "\n"), own = strcspn(line, " \n");
-        const int has_value = length >= own + 3 && memcmp(line + own, " = ", 3) == 0;
-        snprintf(name, sizeof name, "%.*s", (int)(has_value ? own : length), line);
-        if (length && put(s, name, has_value ? line + own + 3 : NULL, has_value ? length - own - 3 : 0, error, size))
+    settings_line l;
+    while (*text) {
+        text = cgt_figure_settings_line(text, &l);
+        if (*l.name && put(s, l.name, l.value, l.value_length, error, size))
             return -1;
-        line += length + (line[length] == '\n');
     }
     return 0;
 }

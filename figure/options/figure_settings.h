@@ -26,6 +26,16 @@ typedef enum settings_change {
     SETTINGS_LINES  /* lines "name = value", which are checked together; the name does not count */
 } settings_change;
 
+/* A line "name = value" or "name" of settings; name "": the line is empty. */
+typedef struct settings_line {
+    char name[64];
+    const char *value; /* in the text; NULL: none */
+    size_t value_length;
+} settings_line;
+
+/* Reads a line; returns where the next one begins. */
+const char *cgt_figure_settings_line(const char *line, settings_line *told);
+
 /* Changes settings, and makes the options anew, whose texts are those of the settings. Returns 0, or -1 with a
  * sentence: nothing has changed. */
 int cgt_figure_settings_change(figure_settings *s, settings_change change, const char *name, const char *value,

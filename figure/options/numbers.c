@@ -253,6 +253,13 @@ int cgt_read_camera(const char *text, cgt_camera *camera, char *error, size_t er
     return 0;
 }
 
+int cgt_tells_of_memory(const char *sentence)
+{
+    static const char memory[] = "out of memory";
+    const size_t length = sizeof memory - 1;
+    return strncmp(sentence, memory, length) == 0 && strchr(", ", sentence[length]) != NULL; /* or the end */
+}
+
 /* ---- Words -------------------------------------------------------------------------------------------------- */
 
 int cgt_find_word(const char *list, const char *word)

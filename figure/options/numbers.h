@@ -21,6 +21,10 @@ float cgt_scan_float(const char *text, char **end);
 /* Writes a sentence, unless error is NULL or error_size 0, and returns -1. */
 int cgt_refuse(char *error, size_t error_size, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
+/* Whether a sentence is about memory that there is not: all of these begin alike, and no other does but by a user's
+ * words. */
+int cgt_tells_of_memory(const char *sentence);
+
 /* A number by %.*g, with a point: printed by cgt_number(digits, value).text. */
 typedef struct number_text {
     char text[32];

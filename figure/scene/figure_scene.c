@@ -291,8 +291,7 @@ static int make_figures(const cgt_figure *figure, const cgt_trajectory_frame *f,
     if (make_lines(figure, f, parts, error, error_size))
         return -1;
     if (parts->sticks.failed) {
-        snprintf(error, error_size, "%s: frame %" PRIu64 ": out of memory for bonds, arrows, trails or box",
-                 figure->source, f->number);
+        snprintf(error, error_size, "out of memory for bonds, arrows, trails or box of frame %" PRIu64, f->number);
         return -1;
     }
     return 0;

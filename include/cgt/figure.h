@@ -21,7 +21,7 @@
  * Conventions are those of cgt.h and picture.h. Options and data are in the data's own coordinates, whatever origin is
  * subtracted from them.
  * Errors   Functions give a cgt_result; the figure has the sentence. A call of cgt_figure_set that fails changes
- *          nothing; after another one that fails the survey begins anew.
+ *          nothing, but may end a picture that has begun; after another one that fails the survey begins anew.
  * Threads  One thread at a time calls a figure; beside it one more may be in cgt_figure_keep, with the option trails
  *          not while a frame is shown or an option set.
  * Numbers  are read and written with a point, whatever the locale of the process is. */
@@ -148,8 +148,8 @@ CGT_API bool cgt_figure_get_option(uint32_t index, cgt_figure_option *option);
  * or a camera that the option changes are those of this frame, a camera of cgt_figure_set_camera ends with the second.
  *   value   NULL: without a value; copied, with blanks in place of ends of lines
  * Errors: INVALID_ARGUMENT (there is no such option; the value; it does not go with another option; unwrap, whole,
- *         trails and type-element where frames are kept), OUT_OF_MEMORY; where frames are kept as cgt_figure_show,
- *         too */
+ *         trails and type-element once cgt_figure_begin_keep was called), OUT_OF_MEMORY; where frames are kept as
+ *         cgt_figure_show, too */
 CGT_API cgt_result cgt_figure_set(cgt_figure *figure, const char *name, const char *value);
 
 /* Sets options by lines "name = value", or "name" alone, of a settings file, in their order; what needs several of them
@@ -164,9 +164,11 @@ CGT_API cgt_result cgt_figure_unset(cgt_figure *figure, const char *name);
 CGT_API size_t cgt_figure_get(const cgt_figure *figure, const char *name, char *text, size_t size);
 
 /* Copies settings by which another figure makes the same picture of the shown frame: what was set, and in the place of
- * automatic ones camera, size, antialias, color, range, floor-axis and floor-place as they were chosen; log-scale only
- * where the colours have it.
- *   name   the value of one of these seven; NULL: all settings
+ * automatic ones camera, size, antialias, color, range, floor-axis and floor-place as they were chosen; where the
+ * camera has moved on from that of the first frame, light and ambient-radius, too, which follow that one; log-scale
+ * only where the colours have it. What is of several frames is not told: legends, the colours of words and categories,
+ * and glass are those of the frames that the other figure looks at; speeds and trails need the frames before.
+ *   name   the value of one of these seven, or light; NULL: all settings
  * Returns as cgt_figure_get; 0: nothing was chosen yet. */
 CGT_API size_t cgt_figure_get_chosen(const cgt_figure *figure, const char *name, char *text, size_t size);
 
@@ -198,7 +200,8 @@ CGT_API cgt_result cgt_figure_show(cgt_figure *figure, const cgt_figure_data *da
 /* A frame with all that it has, for a program that shows frames in any order, or reads them in a thread of its own. */
 typedef struct cgt_figure_frame cgt_figure_frame;
 
-/* Begins to keep frames, and ends the survey. May be called again.
+/* Begins to keep frames, and ends the survey. May be called again. Frames that are not kept may still be shown, with
+ * trails of their own.
  *   lead   gets how many frames before one must be given for its speeds, trails and molecules
  * Errors: as cgt_figure_show */
 CGT_API cgt_result cgt_figure_begin_keep(cgt_figure *figure, uint64_t *lead);
@@ -220,7 +223,9 @@ CGT_API const struct cgt_trajectory_frame *cgt_figure_frame_get_data(const cgt_f
 /* Releases a frame; one that is shown is taken away first, by the thread that calls the figure. NULL does nothing. */
 CGT_API void cgt_figure_frame_release(cgt_figure_frame *frame);
 
-/* Makes it the one that is drawn, in place, until another one is. Errors: as cgt_figure_show; then none is shown */
+/* Makes it the one that is drawn, in place, until another one is, or another figure shows it. One that another figure
+ * has kept is as the options of that one say.
+ * Errors: as cgt_figure_show, then none is shown; INVALID_ARGUMENT (trails of a figure that has kept no frames) */
 CGT_API cgt_result cgt_figure_show_frame(cgt_figure *figure, cgt_figure_frame *frame);
 
 /* ---- The camera --------------------------------------------------------------------------------------------- */
@@ -232,8 +237,12 @@ CGT_API cgt_result cgt_figure_get_camera(const cgt_figure *figure, cgt_camera *c
 /* Gets the axis that points up by the options, else the camera's up. Errors: as cgt_figure_get_camera */
 CGT_API cgt_result cgt_figure_get_up(const cgt_figure *figure, float up[3]);
 
-/* Sets the camera of all frames, less the data's origin, in place of that of the options; projection is by the option
- * ortho. Errors: INVALID_ARGUMENT: eye and target are the same */
+/* Sets the camera of all frames, less the data's origin, in place of that of the options; zeros are the defaults of
+ * cgt_camera, projection and height are by the option ortho. Lines, such as edges of the box, have the thickness that
+ * this camera asks for from the next cgt_figure_draw or _begin on, but those of a frame that is not kept from the next
+ * cgt_figure_show on.
+ * Errors: INVALID_ARGUMENT (what cgt_camera and the option camera refuse: eye and target are the same, up is along the
+ *         view, fov is not below 180, a number is not finite); the camera is the one before */
 CGT_API cgt_result cgt_figure_set_camera(cgt_figure *figure, const cgt_camera *camera);
 
 /* Moves the camera so that it shows all of the shown frame, in the same direction; it is then one that was set.
@@ -253,8 +262,9 @@ CGT_API void cgt_figure_set_stop(cgt_figure *figure, bool (*stop)(const void *us
 CGT_API cgt_result cgt_figure_draw(cgt_figure *figure, const cgt_image *image, const cgt_trace_options *options);
 
 /* The same in steps, as cgt_picture_begin, _step and _read; the background is never transparent. After the last step
- * the picture is that of cgt_figure_draw. Errors: as cgt_figure_draw; INVALID_ARGUMENT (no picture has begun since a
- * frame was shown or released, or an option set) */
+ * the picture is that of cgt_figure_draw. A camera that is set meanwhile is that of the next picture.
+ * Errors: as cgt_figure_draw; INVALID_ARGUMENT (no picture has begun since a frame was shown or released, or an option
+ *         set; an option that the shown frame refuses ends a picture, too) */
 CGT_API cgt_result cgt_figure_begin(cgt_figure *figure);
 CGT_API cgt_result cgt_figure_step(cgt_figure *figure, uint32_t samples, uint32_t *left);
 CGT_API cgt_result cgt_figure_read(cgt_figure *figure, const cgt_image *image);
@@ -283,7 +293,8 @@ typedef struct cgt_figure_hit {
     float place[3]; /* less the data's origin */
 } cgt_figure_hit;
 
-/* Finds it. Errors: INVALID_ARGUMENT: nothing is shown */
+/* Finds it, within t_min, t_max and mask of the camera. Errors: INVALID_ARGUMENT (nothing is shown; a pixel that is not
+ * in the picture) */
 CGT_API cgt_result cgt_figure_pick(cgt_figure *figure, uint32_t x, uint32_t y, cgt_figure_hit *hit);
 
 /* Copies what is known of a particle or triangle of the shown frame, in lines: number, id, type, element; of particles

@@ -217,8 +217,8 @@ CGT_API void cgt_trajectory_get_origin(const cgt_trajectory *t, double origin[3]
 /* Whether cgt_trajectory_rewind can go back; it cannot in a pipe that is not kept. */
 CGT_API bool cgt_trajectory_can_rewind(const cgt_trajectory *t);
 
-/* Reads the next frame; CGT_END: there is none. After an error every call but rewind and close repeats it: a frame is
- * whole, or it is an error. */
+/* Reads the next frame; CGT_END: there is none. After an error every call that has a result but rewind and close
+ * repeats it, also those that count frames or ask for columns: a frame is whole, or it is an error. */
 CGT_API cgt_result cgt_trajectory_read(cgt_trajectory *t, cgt_trajectory_frame *frame);
 
 /* Says which columns the next frames are read with, by the names in cgt_trajectory_frame.column; others keep value NULL

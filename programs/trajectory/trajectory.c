@@ -360,6 +360,8 @@ void cgt_trajectory_set_follow(cgt_trajectory *t, double seconds)
 
 cgt_result cgt_trajectory_count_frames(cgt_trajectory *t, uint64_t *frames)
 {
+    if (t != NULL && t->failed)
+        return t->error;
     cgt_result result = cgt_trajectory_rewind(t);
     while (result == CGT_OK)
         result = cgt_trajectory_skip(t);

@@ -30,7 +30,7 @@ cgt_result cgt_trajectory_want_columns(cgt_trajectory *t, const char *const *nam
 {
     if (t == NULL)
         return CGT_ERROR_OUT_OF_MEMORY;
-    if (!t->is_open)
+    if (!t->is_open || t->failed)
         return t->error;
     trajectory_columns *const c = &t->columns;
     if (count > CGT_TRAJECTORY_MOST_COLUMNS)

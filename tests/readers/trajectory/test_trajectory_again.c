@@ -323,9 +323,44 @@ TEST(topology_of_an_odd_residue)
     rewind_it(t);
     assert_int_equal(told_read(t, &frame, error, sizeof error), -1);
     assert_non_null(strstr(error, "the topology cannot be read: "));
-    scratch_want(t, NULL, 0);
     rewind_it(t);
+    scratch_want(t, NULL, 0);
     assert_int_equal(scratch_read(t).count, 1);
+}
+
+/* After an error all but rewinding repeats it: counting does not go on, asking for columns keeps its words. */
+TEST(errors_are_repeated)
+{
+#define STEP(x)                                                                                                        \
+    "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS id x y z\n"    \
+    "1 " x " 0 0\n"
+    const char *const path = scratch_text(".lammpstrj", STEP("0") STEP("?") STEP("0")); /* skipping does not see it */
+    cgt_trajectory *const t = scratch_open(path, NULL);
+    cgt_trajectory_frame frame;
+    char error[1024], again[1024];
+    uint64_t count = 7;
+    assert_int_equal(told_read(t, &frame, error, sizeof error), 1);
+    assert_true(told_read(t, &frame, error, sizeof error) < 0);
+    static const char *names[CGT_TRAJECTORY_MOST_COLUMNS + 1]; /* one too many */
+    for (size_t i = 0; i <= CGT_TRAJECTORY_MOST_COLUMNS; i++)
+        names[i] = "x";
+    for (int call = 0; call < 6; call++) {
+        const cgt_result result = call == 0   ? cgt_trajectory_want_columns(t, names, 1)
+                                  : call == 1 ? cgt_trajectory_want_columns(t, names, sizeof names / sizeof names[0])
+                                  : call == 2 ? cgt_trajectory_want_columns(t, NULL, 0)
+                                  : call == 3 ? cgt_trajectory_count_frames(t, &count)
+                                  : call == 4 ? cgt_trajectory_skip(t)
+                                              : cgt_trajectory_read(t, &frame);
+        assert_int_equal(result, CGT_ERROR_FILE);
+        cgt_trajectory_get_error_message(t, again, sizeof again);
+        assert_string_equal(again, error);
+    }
+    assert_int_equal(count, 7);
+    rewind_it(t);
+    /* refused, and no error of reading */
+    assert_int_equal(cgt_trajectory_want_columns(t, names, sizeof names / sizeof names[0]), CGT_ERROR_FILE);
+    assert_int_equal(cgt_trajectory_want_columns(t, names, 1), CGT_OK);
+    assert_int_equal(told_read(t, &frame, error, sizeof error), 1);
 }
 
 #ifdef CGT_HAVE_MESHES
