@@ -159,6 +159,14 @@ def numbers(name: str, a, dtype: np.dtype, shape: Sequence = (), masked: Optiona
     return a.astype(dtype)
 
 
+def flags(name: str, a) -> np.ndarray:
+    """One flag for each of three edges, or one for all, as int8 (3,) of its own: 0, 1, and -1 for what is not known."""
+    b = array_of(name, a)
+    if b.dtype.kind not in "biu" or b.shape not in ((), (3,)):
+        raise InvalidArgument(f"{name}: {a!r}: must be True, False, or three of them")
+    return np.array(np.broadcast_to(np.where(b == -1, -1, b != 0), (3,)), np.int8)
+
+
 def given_rows(name: str, a, dtypes: Sequence[np.dtype], width: int) -> Tuple[Hold, int]:
     """An array of `width` numbers a row that C reads in place, and its stride in bytes; of a list, one of its own."""
     own = isinstance(a, (list, tuple, range))

@@ -471,9 +471,37 @@ def test_halves_of_bonds():
     for bad, edges, message in (([[0, 4]], None, "bonds: 0 to 4, of 4 positions"), ([[0, -1]], None, "bonds: -1 to 0"),
                                 ([0, 1, 2], None, r"bonds: shape \(3,\): must be \(m, 2\)"),
                                 ([[0.5, 1]], None, "bonds: dtype float64: must be"),
-                                (pairs, np.zeros((3, 3)), "edges: .* the periodic edges")):
+                                (pairs, np.zeros((3, 3)), "edges: .* the periodic edges"),
+                                (pairs, np.full((3, 3), np.nan), "edges: .* the periodic edges")):
         with pytest.raises(cgt.InvalidArgument, match=message):
             cgt.half_bonds(x, bad, edges)
+    for periodic in ("yes", None, (1.5, 1, 1), (1, 1)):
+        with pytest.raises(cgt.InvalidArgument, match="periodic: .*: must be True, False, or three"):
+            cgt.half_bonds(x, pairs, box, periodic)
+
+
+def test_bonds_go_to_the_nearest_image_however_a_box_leans():
+    slim = np.array([[4.2857, 0, 0], [-4.0, 1.54, 0], [0, 0, 10.0]])  # and one that is far from reduced
+    far = cgt.half_bonds([[1, 1, 1], [1, 2.5, 1]], [[0, 1]], [[10, 0, 0], [40, 10, 0], [0, 0, 10]])[0]
+    assert far[1].tolist() == [1, 1.75, 1]
+    a, c = 10.473, np.cos(np.radians(24.16))  # Bi2Te3's primitive cell
+    y = (c - c * c) / np.sqrt(1 - c * c)
+    rhombus = a * np.array([[1, 0, 0], [c, np.sqrt(1 - c * c), 0], [c, y, np.sqrt(1 - c * c - y * y)]])
+    x = np.array([[0.4, 0.4, 0.4], [0.7905, 0.7905, -0.2095]]) @ rhombus
+    near = cgt.half_bonds(x, [[0, 1]], rhombus)[0]
+    assert abs(2 * np.linalg.norm(near[1] - near[0]) - 3.073) < 1e-3
+    r = np.random.default_rng(4)
+    x, pairs = r.uniform(-20, 20, (40, 3)), r.integers(0, 40, (60, 2))
+    times = np.stack(np.meshgrid(*[np.arange(-6, 7)] * 3), axis=-1).reshape(-1, 3)
+    for box in (rhombus, slim, *r.normal(0, 3, (20, 3, 3))):
+        for periodic in ((1, 1, 1), (1, 0, 1), (0, 1, 0), (0, 0, 0)):
+            edges = box[np.array(periodic, bool)]
+            near = cgt.half_bonds(x, pairs, box, periodic)[0][:120]
+            found = 2 * (near[1::2] - near[0::2])
+            whole = (found - x[pairs[:, 1]] + x[pairs[:, 0]]) @ np.linalg.pinv(edges)
+            assert np.allclose(whole, np.rint(whole))  # an image
+            images = found[:, None] + times[:, np.array(periodic, bool)] @ edges
+            assert (np.linalg.norm(found, axis=1) < np.linalg.norm(images, axis=2).min(axis=1) + 1e-4).all()
 
 
 def test_points_inside(cloud, scene):
