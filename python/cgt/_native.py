@@ -215,6 +215,17 @@ def pair(name, value):
     return first, second
 
 
+def several(name, value, what):
+    """A tuple of what is looped over once, or an error that names it."""
+    try:
+        if isinstance(value, (str, bytes, Mapping)):
+            raise TypeError
+        values = iter(value)
+    except TypeError:
+        raise InvalidArgument(f"{name}: {value!r}: must be a sequence of {what}") from None
+    return tuple(values)
+
+
 def _remake(kind, base, arguments, rest):
     """What a copy or a pickle is made with: the arguments of `base`'s __init__, and what is set besides."""
     thing = kind.__new__(kind)

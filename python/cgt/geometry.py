@@ -60,7 +60,7 @@ class _Geometry(Plain):
     def _refer_radii(self, radius, types, count: int, what: str) -> None:
         """Refers to one radius, to one each, or to one each type."""
         if types is None and (radius.__class__ in (float, int) or _arrays.array_of("radius", radius).ndim == 0):
-            self._struct.radius = real("radius", radius)
+            self._struct.radius = self._given["radius"] = real("radius", radius)  # an array of one may change
             return
         radii = self._refer("radius", radius, POINTS, 1, "radii")
         name, each = "radius", radii

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Pictures; left out where libcgt was installed without them."""
+import copy
+import pickle
 import struct
 import zlib
 
@@ -279,6 +281,37 @@ def test_palettes_ids_and_lines(scene):
     ):
         with pytest.raises(cgt.InvalidArgument, match=message):
             make()
+
+
+def test_what_is_looped_over_once_means_the_same(scene):
+    light = cgt.Light((5, 0, 5))
+    given = {"lights": [(light, (1, 0, 0), 0.0)], "layers": [(2, 0.5)], "materials": [cgt.Material("mirror")],
+             "cue": (0.5, 1, 9), "up": (0, 0, 1), "rows": (3, 20)}
+    for name, values in given.items():
+        wanted = cgt.Picture(40, 30, **{name: values})
+        for once in (iter(values), (v for v in values), zip(*zip(*values)) if name in ("lights", "layers") else iter(values)):
+            picture = cgt.Picture(40, 30, **{name: once})
+            for other in (picture, copy.copy(picture), copy.deepcopy(picture)):
+                assert repr(other._given[name]) == repr(wanted._given[name])
+                assert np.array_equal(other.draw(scene, CAMERA).pixels, wanted.draw(scene, CAMERA).pixels), name
+    assert not np.array_equal(cgt.Picture(40, 30).draw(scene, CAMERA).pixels,
+                              cgt.Picture(40, 30, lights=iter(given["lights"])).draw(scene, CAMERA).pixels)
+    for name, value in (("lights", light), ("lights", 5), ("layers", 5), ("materials", cgt.Material()), ("layers", "ab"),
+                        ("lights", [light]), ("materials", None), ("rows", 3), ("layers", [5])):
+        with pytest.raises(cgt.InvalidArgument, match=f"^{name}: "):
+            cgt.Picture(40, 30, **{name: value})
+
+
+def test_copies_have_what_the_picture_was_made_of(scene):
+    paper, line, color, layers = np.array([1.0, 0, 0]), [0.0, 1, 0], np.array([1.0, 0, 0]), [(1, 0.5)]
+    rows, lights = [0, 20], [[cgt.Light((0, 0, 9)), color, 0.0]]
+    picture = cgt.Picture(40, 30, background=paper, outline_color=line, outline=2.0, lights=lights, layers=layers,
+                          rows=rows)
+    expected = picture.draw(scene, CAMERA).pixels
+    paper[:], line[:], color[:], rows[:], lights[0][2] = 0, [1, 1, 0], 0.5, [0, 10], None
+    layers.clear()
+    for other in (copy.copy(picture), copy.deepcopy(picture), pickle.loads(pickle.dumps(picture))):
+        assert np.array_equal(other.draw(scene, CAMERA).pixels, expected)
 
 
 def test_lights_without_shadows(scene):
