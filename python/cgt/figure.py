@@ -3,6 +3,7 @@
 """Labelled pictures and movies of simulations: those of cgt-render, byte for byte, of what Python has."""
 from __future__ import annotations
 
+import copy
 import difflib
 import importlib.util
 import math
@@ -136,10 +137,7 @@ def _settings_of(keyword: str, value) -> List[Tuple[str, _Texts]]:
         return [(name, [f"{key}={_text_of(keyword, colored, v)}" for key, v in value.items()])]
     many = row.repeats and isinstance(value, (list, tuple)) and not (
         value and isinstance(value[0], (int, float, np.integer, np.floating)))
-    found: List[Tuple[str, _Texts]] = [(name, [_text_of(keyword, row, v) for v in (value if many else [value])])]
-    if isinstance(value, Camera) and value.projection == "orthographic":
-        found.append(("ortho", [None]))
-    return found
+    return [(name, [_text_of(keyword, row, v) for v in (value if many else [value])])]
 
 
 class Figure(Plain):
@@ -154,7 +152,8 @@ class Figure(Plain):
         Switches are True or False, numbers and texts plain, several numbers a tuple (``size=(1280, 720)``), options
         that may be given several times a list (``show=["x > 0", "type == 1"]``), those of types and elements a
         dictionary (``type_color={"O": "tomato", 2: "#4060ff"}``). Colours are names of CSS, "#rrggbb" or three
-        numbers as of `cgt.colors`; a camera may be a `cgt.Camera`. None is what the option is by itself.
+        numbers as of `cgt.colors`; a camera may be a `cgt.Camera`, which says ortho, too, unless the same call does.
+        None is what the option is by itself.
 
     Notes
     -----
@@ -176,6 +175,9 @@ class Figure(Plain):
     angstrom : float
         In the unit of lengths, for radii by element.
 
+    Copies and pickles have the options, the mesh that stands, an assigned camera, and the shown frame, of its arrays as
+    they are then; after a survey only the first three: the copy has to make it anew.
+
     One thread at a time uses a figure: others get `InUse`. All that takes time releases Python's lock.
 
     Examples
@@ -187,7 +189,7 @@ class Figure(Plain):
     """
 
     __slots__ = ("_handle", "_context", "_context_handle", "_gate", "_texts", "_notices", "_origin", "_words",
-                 "_looked", "_shown", "_again", "_pixels", "_counts")
+                 "_looked", "_shown", "_again", "_pixels", "_counts", "_mesh", "_view", "_has_lens")
     _unmade = {"_made": False, "_handle": None, "_gate": Gate("figure")}
     _handle: Any
 
@@ -200,6 +202,9 @@ class Figure(Plain):
         self._gate = Gate("figure", self._context_handle)
         self._texts: Dict[str, List[Optional[str]]] = {}
         self._notices: List[str] = []
+        self._mesh: Optional[FigureData] = None
+        self._view: Optional[Camera] = None  # what was assigned or fitted
+        self._has_lens = False  # whether ortho is of the option camera, and goes with it
         self._forget()
         self._given = {"context": context}
         self._made = True
@@ -223,6 +228,26 @@ class Figure(Plain):
 
     def _arguments(self) -> dict:
         return {**self._given, **self.options}
+
+    def _rest(self) -> dict:
+        frame, is_shown = (self._again or self._shown) if self._looked != "survey" else None, self._again is None
+        if frame is not None and frame.number is None and is_shown:
+            frame = copy.copy(frame)
+            frame.number = self._counts[1] - 1
+        return {**super()._rest(), "_state": (frame, is_shown, self._mesh, self._view, self._has_lens)}
+
+    def _set_state(self, state) -> None:
+        frame, is_shown, mesh, view, self._has_lens = state
+        if mesh is not None:
+            self._stand(mesh)
+        if view is not None:
+            self.camera = view
+        if frame is not None and is_shown:
+            self._show(frame)
+        else:
+            self._again = frame
+
+    _state = property(None, _set_state, doc="What a copy has besides its options.")
 
     def _told(self) -> dict:
         return self.options if self._made else {}
@@ -260,7 +285,13 @@ class Figure(Plain):
         After that a survey has to be made again; without one, what is shown is drawn by the new options, of its arrays
         as they are then.
         """
-        texts = dict(self._texts)
+        texts, has_lens = dict(self._texts), self._has_lens and "ortho" not in options
+        if "camera" in options and "ortho" not in options:
+            camera = options["camera"]
+            is_ortho = isinstance(camera, Camera) and instance("camera", camera, Camera).projection == "orthographic"
+            if is_ortho or has_lens or isinstance(camera, Camera):
+                options["ortho"] = is_ortho
+            has_lens = is_ortho
         for keyword, value in options.items():
             for name, values in _settings_of(keyword, value):
                 texts.pop(name, None)
@@ -268,17 +299,19 @@ class Figure(Plain):
                     texts.pop({"shadows": "no-shadows"}.get(name, "shadows"), None)
                 if values:
                     texts[name] = values
-        return self._take(texts)
+        self._take(texts)
+        self._has_lens = has_lens
+        return self
 
     def unset(self, *names: str) -> "Figure":
         """Takes back what was set of some options, of all without names, and returns the figure."""
         return self.set(**dict.fromkeys(names or self.options))
 
-    def _take(self, texts) -> "Figure":
+    def _take(self, texts) -> None:
         with self._gate.alone:
             figure, trial = self._open, self._create()
             if texts == self._texts:
-                return self
+                return
             lines = [f"{name} = {value}" if value is not None else name for name in texts for value in texts[name]]
             settings = ffi.new("char[]", os.fsencode("\n".join(lines)))
             for handle in (trial, figure):  # what is refused leaves this one as it is
@@ -286,7 +319,6 @@ class Figure(Plain):
                 self._check(lib.cgt_figure_set_lines(handle, settings), handle)
             self._texts = texts
             self._forget((self._shown or self._again) if self._looked != "survey" else None)
-            return self
 
     @property
     def options(self) -> Dict[str, Any]:
@@ -410,11 +442,14 @@ class Figure(Plain):
 
     def set_mesh(self, mesh, **more) -> "Figure":
         """Sets a mesh that stands still among the particles, such as walls; None: none. Returns the figure."""
-        data = None if mesh is None else take(mesh, **more)
+        return self._stand(None if mesh is None else take(mesh, **more))
+
+    def _stand(self, data: Optional[FigureData]) -> "Figure":
         with self._gate.alone:
             keep: list = []
             c = ffi.NULL if data is None else data.fill(ffi, 0, self._origin or data.origin or [0.0] * 3, keep, {})
             self._check(lib.cgt_figure_set_mesh(self._open, c))
+            self._mesh = data
             self._forget()
             del keep
         return self
@@ -448,12 +483,18 @@ class Figure(Plain):
             self._pixels = None
         if result:
             raise InvalidArgument("camera: eye and target are the same")
+        c.projection = lib.CGT_PROJECTION_PERSPECTIVE  # by its angle; the option ortho tells the other
+        self._view = Camera()
+        self._view._struct[0] = c[0]
 
     def fit(self) -> "Figure":
         """Moves the camera so that it shows all of the shown frame, in the same direction; returns the figure."""
         with self._gate.alone:
             self._check(lib.cgt_figure_fit(self._open))
             self._pixels = None
+            self._view = Camera()
+            lib.cgt_figure_get_camera(self._open, self._view._struct)
+            self._view._struct.projection = lib.CGT_PROJECTION_PERSPECTIVE
         return self
 
     def pick(self, x: int, y: int) -> SimpleNamespace:

@@ -73,6 +73,68 @@ floor = 228b22
     assert known["text_size"].kind == "number" and known["style"].words == ("soft", "paper", "plain")
 
 
+def test_a_camera_takes_its_lens_along():
+    wide, flat = cgt.Camera((0, 0, 9), fov=40), cgt.Camera((0, 0, 9), projection="orthographic", height=3)
+    wanted = pixels(X, {"camera": wide})
+    for next_one in (wide, "0,0,9,0,0,0,0,1,0,40", (0, 0, 9, 0, 0, 0, 0, 1, 0, 40)):
+        figure = cgt.Figure(**SIZE, camera=flat)
+        assert figure.options["ortho"] is True and "ortho" not in figure.set(camera=next_one).options
+        assert same(figure.show(X).pixels, wanted)
+    assert "ortho" not in cgt.Figure(camera=flat).unset("camera").options
+    assert "ortho" not in cgt.Figure(camera=flat).set(camera=None).options
+    assert "ortho" not in copy.copy(cgt.Figure(camera=flat)).unset("camera").options
+    assert "ortho" not in cgt.Figure(ortho=True).set(camera=wide).options
+    # the same call says ortho, or another one did so for itself
+    for figure in (cgt.Figure(camera=wide, ortho=True), cgt.Figure(ortho=True, camera=wide),
+                   cgt.Figure(ortho=True).set(title="a", camera=None),
+                   cgt.Figure(ortho=True).set(camera="0,0,9,0,0,0,0,1,0,40"),
+                   cgt.Figure(camera=flat).set(ortho=True).unset("camera")):
+        assert figure.options["ortho"] is True
+    assert "ortho" not in cgt.Figure(camera=flat, ortho=False).options
+    figure = cgt.Figure(camera=flat)
+    with pytest.raises(cgt.InvalidArgument):
+        figure.set(camera=wide, antialias=3)
+    assert figure.options["ortho"] is True and "ortho" not in figure.unset("camera").options
+
+
+def test_copies_show_the_same():
+    ways = (copy.copy, copy.deepcopy, lambda f: pickle.loads(pickle.dumps(f)))
+    heat, names = {"heat": [1.0, 2, 5]}, {"name": ["A", "B", "A"]}
+    figure = cgt.Figure(**SIZE, style="plain", color="heat", title="frame %n").show(X, radius=0.5, columns=heat)
+    figure.show(2 * X, radius=0.4, columns={**heat, **names}, time=2.0)
+    first = figure.camera
+    turned = figure.camera
+    turned.orbit(40)
+    for view in (None, turned, cgt.Camera((0, 0, 20))):
+        if view is not None:
+            figure.camera = view
+        for other in [way(figure) for way in ways]:
+            assert np.array_equal(other.camera.eye, figure.camera.eye) or view is None
+            assert view is None or same(other.pixels, figure.pixels)
+            assert other.pick(30, 20) == figure.pick(30, 20) or view is None
+            other.camera = first
+            assert not np.array_equal(figure.camera.eye, first.eye) or view is None  # it is one of its own
+    one = cgt.Figure(**SIZE, style="plain").show(X, radius=0.5)
+    assert all(same(way(one).pixels, one.pixels) for way in ways)
+    one.set(color="red")  # asks for it anew when it is drawn
+    assert all(same(way(one).pixels, one.pixels) for way in ways)
+    one.camera = first
+    one.fit()
+    assert all(same(way(one).pixels, one.pixels) for way in ways)
+    flat = cgt.Figure(**SIZE, style="plain", ortho=True).show(X, radius=0.5)
+    flat.camera = cgt.Camera((0, 0, 9), projection="orthographic", height=3)
+    assert all(same(way(flat).pixels, flat.pixels) and way(flat).camera.height == flat.camera.height for way in ways)
+    square = ([[0, 0, -1], [9, 0, -1], [9, 9, -1], [0, 9, -1.0]], [[0, 1, 2], [0, 2, 3]])
+    walled = cgt.Figure(**SIZE, style="plain").set_mesh(square).show(X, radius=0.5)
+    assert not same(walled.pixels, pixels(X, {"style": "plain"}, radius=0.5))
+    assert all(same(way(walled).pixels, walled.pixels) for way in ways)
+    for way in ways:  # a survey is made anew
+        with pytest.raises(cgt.InvalidArgument, match="nothing is shown"):
+            way(cgt.Figure(**SIZE).survey([X, 2 * X]).show(X)).draw()
+    with pytest.raises(cgt.InvalidArgument, match="nothing is shown"):
+        copy.copy(cgt.Figure()).draw()
+
+
 def test_what_is_refused_changes_nothing():
     figure = cgt.Figure(**SIZE, color="v").show(X, columns={"v": [1, 2, 3]})
     before, settings = figure.pixels, figure.settings
