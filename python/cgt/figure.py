@@ -652,6 +652,7 @@ class _Encoder:
         if shutil.which("ffmpeg") is None:
             raise InvalidArgument("path: movies need the program ffmpeg, and it is not in PATH (Debian: apt-get install "
                                   "ffmpeg)")
+        self.count = 0  # of frames
         self.temporary = f"{self.path[:-len(ending)]}.{os.getpid()}{ending}"
         self.process = subprocess.Popen(
             ["ffmpeg", "-v", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", "%dx%d" % size, "-r", f"{fps:.9g}",
@@ -660,6 +661,7 @@ class _Encoder:
 
     def write(self, pixels: np.ndarray) -> None:
         """One frame."""
+        self.count += 1
         try:
             self.process.stdin.write(np.ascontiguousarray(pixels[..., :3]).data)
         except BrokenPipeError:
@@ -672,10 +674,12 @@ class _Encoder:
         if kind is not None:
             self.process.kill()
         said = self.process.communicate()[1].decode(errors="replace").strip()
-        if kind is None and self.process.returncode == 0:
+        if kind is None and self.count and self.process.returncode == 0:
             os.replace(self.temporary, self.path)
             return
         if os.path.exists(self.temporary):
             os.remove(self.temporary)
+        if kind is None and not self.count:
+            raise InvalidArgument("run: without frames")
         if kind is None:
             raise Error(f"{self.path}: ffmpeg: {said.splitlines()[0] if said else 'it failed'}")

@@ -309,6 +309,11 @@ def test_movies(tmp_path, monkeypatch):
             width = 61 if name == "a.gif" else 62
             last = np.frombuffer(raw, "u1").reshape(4, 40, width, 3)[-1, :, :61]
             assert abs(last.astype(int) - figure.pixels).mean() < 6
+        before = (tmp_path / "a.gif").read_bytes()
+        for nothing in (iter([]), (x for x in ())):
+            with pytest.raises(cgt.InvalidArgument, match="^run: without frames"):
+                figure.movie(tmp_path / "a.gif", nothing, survey=False, progress=False)
+        assert (tmp_path / "a.gif").read_bytes() == before
         with pytest.raises(cgt.InvalidArgument, match="positions: shape"):
             figure.movie(tmp_path / "b.mp4", [*run, X[:, :2]], survey=False, progress=False)
         assert sorted(os.listdir(tmp_path)) == ["a.gif", "a.mp4"]
