@@ -516,6 +516,9 @@ class Figure(Plain):
 
     def draw(self) -> np.ndarray:
         """Draws the shown frame: (height, width, 3) uint8, a new array; with the option transparent 4 numbers."""
+        return self._draw().copy()
+
+    def _draw(self) -> np.ndarray:
         if self._again is not None:
             self._show(self._again)
         if self._open and self._shown is None:
@@ -535,8 +538,8 @@ class Figure(Plain):
 
     @property
     def pixels(self) -> np.ndarray:
-        """The picture of the shown frame, drawn once: (height, width, 3 or 4) uint8."""
-        return self.draw() if self._pixels is None else self._pixels
+        """The picture of the shown frame, drawn once: (height, width, 3 or 4) uint8, the array that `save` writes."""
+        return self._draw() if self._pixels is None else self._pixels
 
     def save(self, path, dpi: Optional[float] = None) -> None:
         """Writes the picture of the shown frame, a PNG file. dpi: pixels to an inch, as the file tells them."""
@@ -600,7 +603,7 @@ class Figure(Plain):
                 self._survey_run(run, more)
             for frame in _with_progress(self._frames(run), run, progress):
                 self._show(take(frame, **more))
-                encoder.write(self.draw())
+                encoder.write(self._draw())
         return self
 
     def close(self) -> None:

@@ -439,6 +439,14 @@ def test_sheets_have_their_bonds_through_two_boundaries():
                                            window=False).pixels)
 
 
+def test_a_drawn_picture_is_the_callers():
+    figure = cgt.Figure(**SIZE).show(X, radius=0.5)
+    first = figure.draw()
+    kept = first.copy()
+    first[:] = 0
+    assert same(figure.pixels, kept) and same(figure.draw(), kept)
+
+
 def test_three_numbers_are_a_colour_for_all():
     x, like = np.random.default_rng(1).uniform(0, 5, (20, 3)), {"size": (64, 48), "window": False}
     red = cgt.show(x, 0.3, "red", **like).pixels
