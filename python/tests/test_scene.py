@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Scenes and calls: arrays by reference, outputs, errors, threads; values against formulas and against each other."""
+import copy
 import gc
 import logging
+import pickle
 import threading
 import weakref
 
@@ -445,6 +447,22 @@ def test_crossings():
     assert s.trace_hit_rows(org, dir, 2, ("surface",), after=after, crossings=True).count.tolist() == [1, 1, 1]
     with pytest.raises(cgt.InvalidArgument, match="after: it lacks 'primitive'"):
         s.trace_hit_rows(org, dir, 1, after={"surface": [0, 0, 0]})
+
+
+def test_frames_of_memory_that_cannot_be_written(scene):
+    frame = scene.trace_camera(cgt.Camera((0, 0, 4)), 40, 30, ("t", "primitive", "geometry", "normal"))
+    buffers = []
+    pickled = pickle.dumps(frame, protocol=5, buffer_callback=buffers.append)
+    others = [pickle.loads(pickled, buffers=[bytes(b.raw()) for b in buffers])]
+    whole = {name: np.zeros((30, 50) + a.shape[2:], a.dtype) for name, a in frame.arrays.items()}
+    apart = scene.trace_camera(cgt.Camera((0, 0, 4)), 40, 30, list(whole), out={k: a[:, :40] for k, a in whole.items()})
+    apart.t.flags.writeable = frame.normal.flags.writeable = False
+    others += [copy.copy(frame), copy.deepcopy(frame), copy.copy(apart)]
+    light = cgt.Light((2, 3, 4))
+    for other in others:
+        assert all(np.array_equal(other[name], a) for name, a in frame.arrays.items()) and set(other) == set(frame)
+        assert np.array_equal(scene.occluded_frame(other, light), scene.occluded_frame(frame, light))
+        other.t[:] = 0  # of its own
 
 
 def test_halves_of_bonds():
