@@ -85,7 +85,13 @@ def _unmasked(name: str, a, masked: Optional[float]):
         return a
     if masked is None and np.ma.is_masked(a):
         raise InvalidArgument(f"{name}: {np.ma.count_masked(a)} elements are masked: fill or drop them")
-    return a.data if masked is None else a.astype(F8).filled(masked)
+    if masked is None or a.dtype.kind not in "biufUSO":
+        return a.data
+    if a.dtype.kind in "biuf":
+        return a.astype(F8).filled(masked)
+    b = a.data.copy()
+    b[np.ma.getmaskarray(a)] = None if a.dtype == object else ""  # no word
+    return b
 
 
 def array_of(name: str, a, masked: Optional[float] = None, follow: bool = False) -> np.ndarray:

@@ -5,12 +5,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from numbers import Number
 from typing import Any, Dict, Iterator, List, NamedTuple, Optional
 
 import numpy as np
 
 from . import _arrays
-from ._arrays import F4, F8, U4, Hold, array_of, check_shape, numbers
+from ._arrays import F4, F8, I8, U4, Hold, array_of, check_shape, flags, numbers
 from ._native import InvalidArgument, real, whole
 from .trajectory import Trajectory, TrajectoryFrame, TrajectorySlice
 
@@ -129,15 +130,36 @@ def _floats(name: str, values, shape) -> np.ndarray:
     return numbers(name, a, a.dtype if a.dtype == F4 else F8, shape)
 
 
+def _of_objects(name: str, a: np.ndarray) -> np.ndarray:
+    """Words or numbers of an array of objects, as tables have them; what is missing is no word, or NaN."""
+    missing = np.array([x is None or type(x).__name__ == "NAType" or (isinstance(x, (float, np.floating)) and x != x)
+                        for x in a.flat], bool).reshape(a.shape)
+    found = a[~missing].tolist()
+    if found and all(isinstance(x, (str, bytes)) for x in found):
+        texts = [x.decode(errors="replace") if isinstance(x, bytes) else x for x in np.where(missing, "", a).flat]
+        return np.array(texts, str).reshape(a.shape)
+    if not all(isinstance(x, (Number, np.bool_)) and not isinstance(x, (complex, np.complexfloating)) for x in found):
+        kinds = ", ".join(sorted({type(x).__name__ for x in found}))
+        raise InvalidArgument(f"{name}: objects ({kinds}): must be words or numbers, not both")
+    try:
+        if len(found) == a.size and all(isinstance(x, (int, np.integer)) for x in found):
+            return a.astype(I8)
+        return np.where(missing, np.nan, a).astype(F8)
+    except OverflowError:
+        raise InvalidArgument(f"{name}: whole numbers beyond what 64 bits hold") from None
+
+
 def _column(name: str, values, count: int):
     """Numbers of a column, or words."""
     known = values.known if isinstance(values, Words) else []
     a = array_of(f"columns: {name}", values.texts if isinstance(values, Words) else values, np.nan)
+    if a.dtype.kind in "US" and isinstance(values, (list, tuple)) and a.ndim == 1:
+        a = np.array(values, object)  # numpy makes words of the numbers among them
     if a.dtype == object:
-        a = a.astype(str)
+        a = _of_objects(f"columns: {name}", a)
     if a.dtype.kind in "US":
         check_shape(f"columns: {name}", a, (count,))
-        return Words(a.astype(str), known)
+        return Words(a if a.dtype.kind == "U" else np.char.decode(a, "utf-8", "replace"), known)
     if name in _WHOLE:
         return numbers(name, a, U4, (count,))
     if name in ("velocity", "normal", "rgb"):
@@ -171,7 +193,10 @@ def take(given, **more) -> FigureData:
         names = [name for name in given.columns if name not in ("x", "y", "z")]
         if len(names) + 3 != len(given.columns):
             raise InvalidArgument("data: a table needs columns x, y and z")
-        found = {"positions": np.column_stack([np.asarray(given[name], float) for name in "xyz"]),
+        places = [_column(name, given[name], len(given[name])) for name in "xyz"]
+        if any(isinstance(a, Words) for a in places):
+            raise InvalidArgument("data: a table needs numbers in its columns x, y and z")
+        found = {"positions": np.column_stack(places),
                  "columns": {name: np.asarray(given[name]) for name in names}}
     else:
         found = {"positions": given}

@@ -163,8 +163,8 @@ class Figure(Plain):
 
     radius : float or (n,) float
     columns : dict or table of (n,)
-        Numbers or words for colours and formulas. Some mean something: id, type, element (atomic numbers), velocity
-        (n, 3), normal (of vertices, (n, 3)).
+        Numbers or words for colours and formulas; what is masked or None is NaN, or no word. Some mean something: id,
+        type, element (atomic numbers), velocity (n, 3), normal (of vertices, (n, 3)).
     bonds : (m, 2) int
         Pairs, for ``bonds=True``.
     cell, pbc, corner, unwrapped

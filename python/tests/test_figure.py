@@ -12,6 +12,7 @@ import shutil
 import subprocess
 import sys
 import types
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ import pytest
 try:
     import cgt.figure
     from cgt import _show
+    from cgt._figure_data import FigureData, is_run
 except ImportError as error:
     pytest.skip(str(error), allow_module_level=True)
 
@@ -133,6 +135,29 @@ def test_copies_show_the_same():
             way(cgt.Figure(**SIZE).survey([X, 2 * X]).show(X)).draw()
     with pytest.raises(cgt.InvalidArgument, match="nothing is shown"):
         copy.copy(cgt.Figure()).draw()
+
+
+def test_columns_of_objects_are_words_or_numbers():
+    options = {"style": "plain", "color": "q", "show": "q > 1"}
+    plain = pixels(X, options, radius=0.5, columns={"q": [3.0, 1, 2]})
+    for values in (np.array([3.0, 1, 2], object), np.array([3, 1, 2], object), [Fraction(3), True, np.float32(2)]):
+        assert same(pixels(X, options, radius=0.5, columns={"q": values}), plain)
+    for values in ([3, None, 2.0], np.array([3, np.nan, 2], object), np.ma.array([3, 7, 2], mask=[0, 1, 0]),
+                   np.ma.array([3, 7, 2], object, mask=[0, 1, 0]), [np.float64(3), None, Fraction(2)]):
+        found = FigureData(X, columns={"q": values}).columns["q"]
+        assert found.dtype == "f8" and found[0] == 3 and np.isnan(found[1]) and found[2] == 2
+    words = ["A", "", "B"]
+    for values in (["A", None, "B"], np.array(["A", np.nan, "B"], object), np.array([b"A", None, b"B"], object),
+                   np.ma.array(["A", "x", "B"], mask=[0, 1, 0]), np.ma.array([b"A", b"x", b"B"], mask=[0, 1, 0]),
+                   np.ma.array(["A", "x", "B"], object, mask=[0, 1, 0])):
+        assert FigureData(X, columns={"q": values}).columns["q"].texts.tolist() == words
+    assert FigureData(X, columns={"q": np.array([b"A", b"\xff", b"B"])}).columns["q"].texts[1] == "\ufffd"
+    assert FigureData(X, columns={"id": np.array([7, 8, 9], object)}).columns["id"].tolist() == [7, 8, 9]
+    for values in (["A", 1, 2.0], np.array([1, "2", 3], object), [object()] * 3, [1, 2j, 3], [[1], [2], [3]],
+                   np.array([1, 10**30, 2], object), np.array([1j, 2, 3], object), np.zeros(3, "M8[s]"),
+                   np.ma.array(np.zeros(3, "M8[s]"), mask=[0, 1, 0]), np.ma.array([1j, 2, 3], mask=[0, 1, 0])):
+        with pytest.raises(cgt.InvalidArgument, match="^columns: q: "):
+            FigureData(X, columns={"q": values})
 
 
 def test_what_is_refused_changes_nothing():
