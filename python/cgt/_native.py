@@ -215,6 +215,25 @@ def pair(name, value):
     return first, second
 
 
+def text_of_path(name, value):
+    """A path as text, or an error that names it."""
+    try:
+        text = os.fsdecode(value)
+    except TypeError:
+        raise InvalidArgument(f"{name}: {value!r}: must be text or a path") from None
+    if "\0" in text:
+        raise InvalidArgument(f"{name}: {value!r}: a zero is in it")
+    return text
+
+
+def switch(name, value):
+    """True or False, or an error that names it."""
+    try:
+        return bool(value)
+    except (TypeError, ValueError):  # an array
+        raise InvalidArgument(f"{name}: {type(value).__name__}: must be True or False") from None
+
+
 def several(name, value, what):
     """A tuple of what is looped over once, or an error that names it."""
     try:
