@@ -289,15 +289,15 @@ def test_what_is_looped_over_once_means_the_same(scene):
              "cue": (0.5, 1, 9), "up": (0, 0, 1), "rows": (3, 20)}
     for name, values in given.items():
         wanted = cgt.Picture(40, 30, **{name: values})
-        for once in (iter(values), (v for v in values), zip(*zip(*values)) if name in ("lights", "layers") else iter(values)):
+        for once in (iter(values), (v for v in values), map(lambda v: v, values)):
             picture = cgt.Picture(40, 30, **{name: once})
             for other in (picture, copy.copy(picture), copy.deepcopy(picture)):
                 assert repr(other._given[name]) == repr(wanted._given[name])
                 assert np.array_equal(other.draw(scene, CAMERA).pixels, wanted.draw(scene, CAMERA).pixels), name
     assert not np.array_equal(cgt.Picture(40, 30).draw(scene, CAMERA).pixels,
                               cgt.Picture(40, 30, lights=iter(given["lights"])).draw(scene, CAMERA).pixels)
-    for name, value in (("lights", light), ("lights", 5), ("layers", 5), ("materials", cgt.Material()), ("layers", "ab"),
-                        ("lights", [light]), ("materials", None), ("rows", 3), ("layers", [5])):
+    for name, value in (("lights", light), ("lights", 5), ("layers", 5), ("materials", cgt.Material()),
+                        ("layers", "ab"), ("lights", [light]), ("materials", None), ("rows", 3), ("layers", [5])):
         with pytest.raises(cgt.InvalidArgument, match=f"^{name}: "):
             cgt.Picture(40, 30, **{name: value})
 
@@ -334,6 +334,16 @@ def test_colours_of_values_types_and_elements():
     assert entries[0] == entries[10] == 0 and entries[10] < entries[30] and entries[500] in (511, 512)
     assert entries.dtype == np.uint16 and cgt.colors.entries([3.0, 3.0]).tolist() == [0, 0]
     assert cgt.colors.entries([np.nan]).tolist() == [1024] and cgt.colors.entries([]).shape == (0,)
+    for low, high, name in ((np.nan, 1, "low"), (-np.inf, 1, "low"), (0, np.inf, "high"), (None, np.nan, "high")):
+        for call in (cgt.colors.entries, cgt.colors.by_value,
+                     lambda v, **ends: cgt.Look(colors=v, map="magma", **ends)):
+            with pytest.raises(cgt.InvalidArgument, match=f"^{name}: .*: must be finite"):
+                call([0, 1, 2.0], low=low, high=high)
+    with np.errstate(all="raise"):
+        for largest in (1e308, np.finfo("f8").max):
+            assert cgt.colors.entries([-largest, 0, largest, np.nan]).tolist() == [0, 512, 1023, 1024]
+            assert cgt.colors.entries([-largest, largest]).tolist() == [0, 1023]
+            assert cgt.colors.entries([-largest, 0.5, largest], low=0, high=1).tolist() == [0, 512, 1023]
     with pytest.raises(cgt.InvalidArgument, match="map: 'rainbow': one of viridis"):
         cgt.colors.palette("rainbow")
     kinds = cgt.colors.by_type([1, 2, 17])
