@@ -382,6 +382,21 @@ def test_cameras_fit_turn_and_light():
         one.fit(ends, 90, 60)
         two.fit(cgt.Spheres([[0, 0, 0], [0, 30.0, 0]], np.float32(0.2)), 90, 60)
         assert np.array_equal(one.eye, two.eye)
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1000, 0, 0]], "f8")
+    for used, dtype in ((corners[:3], "u4"), (corners, "i8"), (corners, "u8"), (corners, "u1")):
+        camera = cgt.Camera()
+        camera.fit(iter([cgt.Triangles(used, np.array([[0, 1, 2]], dtype))]), 90, 60)
+        assert camera.eye[0] == 0.5
+    for shape, name in ((cgt.Triangles(corners, [[0, 1, 4]]), "indices"),
+                        (cgt.Triangles(corners, [[0, 1, -1]]), "indices"),
+                        (cgt.Capsules(corners, 0.5, [[0, 4]]), "indices"),
+                        (cgt.Capsules(corners, 0.5, [[-1, 0]]), "indices"),
+                        (cgt.Spheres(corners, [1.0, 2], types=[0, 1, 2, 0]), "types"), (5, "geometries"),
+                        (cgt.Spheres(corners, [1.0, 2], types=[0, 1, -1, 0]), "types"), (None, "geometries")):
+        eye = camera.eye
+        with pytest.raises(cgt.InvalidArgument, match=f"^{name}: "):
+            camera.fit(shape, 90, 60)
+        assert np.array_equal(camera.eye, eye)
     for nothing in ([], cgt.Spheres(np.zeros((0, 3))), cgt.Spheres(np.full((1, 3), np.nan), 1.0)):
         with pytest.raises(cgt.InvalidArgument, match="nothing to show"):
             camera.fit(nothing, 90, 60)
