@@ -187,7 +187,7 @@ def take(given, **more) -> FigureData:
         found = _of_mdtraj(given)
     elif hasattr(given, "vertices") and hasattr(given, "faces"):
         found = {"positions": given.vertices, "triangles": given.faces}
-    elif isinstance(given, tuple) and len(given) == 2 and all(np.ndim(part) == 2 for part in given):
+    elif isinstance(given, tuple) and len(given) == 2 and all(_axes(part) == 2 for part in given):
         found = {"positions": given[0], "triangles": given[1]}
     elif hasattr(given, "columns") and hasattr(given, "to_numpy"):
         names = [name for name in given.columns if name not in ("x", "y", "z")]
@@ -327,9 +327,16 @@ def is_run(given) -> bool:
             not isinstance(given, list) or bool(given) and not _is_place(given[0]))
 
 
+def _axes(thing) -> int:
+    """How many axes something has, by what it begins with: of a mesh, rows are as many as they are."""
+    if isinstance(thing, (list, tuple)):
+        return 1 + (_axes(thing[0]) if thing else 0)
+    return np.ndim(thing)
+
+
 def _is_place(thing) -> bool:
     """Whether this begins a list of places: it is no frame."""
-    return isinstance(thing, (list, tuple, np.ndarray)) and np.ndim(thing) < 2 or np.isscalar(thing)
+    return isinstance(thing, (list, tuple, np.ndarray)) and _axes(thing) < 2 or np.isscalar(thing)
 
 
 def frames_of(run) -> Iterator[Any]:

@@ -464,6 +464,17 @@ def test_sheets_have_their_bonds_through_two_boundaries():
                                            window=False).pixels)
 
 
+def test_runs_of_meshes():
+    cube = np.array([[x, y, z] for x in (-1.0, 1) for y in (-1, 1) for z in (-1, 1)])
+    corners = np.array([[0, 1, 3], [0, 3, 2], [4, 7, 5], [4, 6, 7], [0, 5, 1], [0, 4, 5], [2, 3, 7], [2, 7, 6]])
+    run = [(cube, corners[:7]), (2 * cube, corners[:7])]
+    wanted = cgt.Figure(**SIZE).survey(iter(run)).show(run[0]).pixels
+    for meshes in (run, [(a.tolist(), b.tolist()) for a, b in run], (m for m in run)):
+        assert same(cgt.Figure(**SIZE).survey(meshes).show(run[0]).pixels, wanted)
+    assert same(pixels((cube.tolist(), corners[:7].tolist())), pixels(run[0]))
+    assert is_run([[[0, 0, 0]], [[1, 1, 1]]]) and not is_run([[0, 0, 0], [1, 1, 1]]) and not is_run([])
+
+
 def test_a_drawn_picture_is_the_callers():
     figure = cgt.Figure(**SIZE).show(X, radius=0.5)
     first = figure.draw()
