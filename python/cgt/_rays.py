@@ -222,6 +222,8 @@ class Rays:
         """
         rays = _Rays(org, dir, t_min=t_min, t_max=t_max, mask=mask, skip_primitive=skip_primitive,
                      skip_geometry=skip_geometry)
+        if len(rays.shape) > 1:
+            raise InvalidArgument(f"org, dir: shape {rays.shape + (3,)}: must be (n, 3)")
         return self._rows(rays, capacity, fields, after, crossings, _Call(precision, statistics, None))
 
     def trace_all_rays(self, org: ArrayLike, dir: ArrayLike, fields: Sequence[str] = ("t", "primitive"), *,

@@ -445,6 +445,11 @@ def test_crossings():
     assert rows.surface[:, 0].tolist() == [0, 0, 0] and rows.more.all()
     after = {name: rows[name][:, 0] for name in ("primitive", "geometry", "surface")}
     assert s.trace_hit_rows(org, dir, 2, ("surface",), after=after, crossings=True).count.tolist() == [1, 1, 1]
+    grid = np.zeros((2, 3, 3)) + org[0]
+    for call in (lambda: s.trace_hit_rows(grid, dir[0], 1), lambda: s.trace_hit_rows(org[0], grid, 1),
+                 lambda: s.trace_all_rays(grid, dir[0]), lambda: s.trace_all_rays(org[0], grid)):
+        with pytest.raises(cgt.InvalidArgument, match=r"shape \(2, 3, 3\): must be \(n, 3\)"):
+            call()
     with pytest.raises(cgt.InvalidArgument, match="after: it lacks 'primitive'"):
         s.trace_hit_rows(org, dir, 1, after={"surface": [0, 0, 0]})
 
@@ -463,6 +468,23 @@ def test_frames_of_memory_that_cannot_be_written(scene):
         assert all(np.array_equal(other[name], a) for name, a in frame.arrays.items()) and set(other) == set(frame)
         assert np.array_equal(scene.occluded_frame(other, light), scene.occluded_frame(frame, light))
         other.t[:] = 0  # of its own
+
+
+def test_shadows_of_a_padded_frame_go_to_plain_arrays(scene):
+    camera, lights = cgt.Camera((0, 0, 4)), [cgt.Light((2, 3, 4)), cgt.Light((0, 1, 0), "directional")]
+    wide = {"t": np.zeros((30, 50), "f4")}
+    for rows in ((0, 0), (10, 5)):
+        frame = scene.trace_camera(camera, 40, 30, "t", rows=rows)
+        apart = scene.trace_camera(camera, 40, 30, "t", rows=rows, out={"t": wide["t"][:, :40]})
+        wanted = scene.occluded_frame(frame, lights)
+        for dtype in (np.uint8, bool):
+            out = np.ones((2, 30, 40), dtype)
+            found = scene.occluded_frame(apart, lights, out=out)
+            inside = slice(10, 15) if rows[1] else slice(None)
+            assert np.array_equal(found[:, inside], wanted[:, inside]) and np.shares_memory(found, out)
+            assert found.sum() == wanted[:, inside].sum() + (2 * 25 * 40 if rows[1] else 0)
+        with pytest.raises(cgt.InvalidArgument, match=r"out: .* shape \(2, 30, 40\)"):
+            scene.occluded_frame(apart, lights, out=np.zeros((2, 30, 50), bool))
 
 
 def test_halves_of_bonds():
