@@ -52,10 +52,10 @@ def show(data, radii=None, colors: Any = None, *, bonds: Any = False, window: Op
     radii : float or (n,) float, optional
         None: those that it has, else by element, else 0.5.
     colors : colour, (n, 3) numbers, n names or (n,) numbers, optional
-        One for all, a name or three numbers; one each; or values, one each, for the map of the option `colormap`. None:
-        what the option `color` says, by itself element or type, where it has some.
+        One for all, a name or three numbers, as a tuple of three always is; one each; or values, one each, for the map
+        of the option `colormap`. None: what the option `color` says, by itself element or type, where it has some.
     bonds : bool, number or (m, 2) int, optional
-        True: those that it has; a number: all pairs so near; pairs.
+        None, False: none; True: those that it has; a number: all pairs so near; pairs.
     window : bool, optional
         True: an error where no window can be opened; False: none. It has particles, their columns of numbers, and the
         options, but neither bonds that are pairs, nor a box, nor colours of each.
@@ -87,12 +87,13 @@ def show(data, radii=None, colors: Any = None, *, bonds: Any = False, window: Op
         options["range"] = (low, high)
     if colors is not None and "color" in options:
         raise InvalidArgument("colors: color says another thing")
-    if not isinstance(bonds, (bool, int, float, np.number)):
+    if bonds is not None and not isinstance(bonds, (bool, np.bool_, int, float, np.number)):
         bonds, more["bonds"] = True, bonds
     if isinstance(colors, str):
         code = code_of(colors)
         options["color"] = f"#{code}" if code else colors
-    elif isinstance(colors, tuple):
+    elif isinstance(colors, tuple) and len(colors) == 3 and not any(
+            isinstance(x, str) or not np.isscalar(x) for x in colors):
         options["color"] = colors
     elif colors is not None:
         a = array_of("colors", colors, np.nan)

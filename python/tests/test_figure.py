@@ -483,6 +483,19 @@ def test_a_drawn_picture_is_the_callers():
     assert same(figure.pixels, kept) and same(figure.draw(), kept)
 
 
+def test_colours_of_a_tuple_are_those_of_a_list():
+    frame, rows = {"window": False, "radii": 0.5, **SIZE}, [(1.0, 0, 0), (0, 1, 0), (0, 0, 1)]
+    for colors in (["red", "blue", "gold"], rows, [1.0, 2, 3, 4]):
+        data = np.vstack([X, X[:1] + 1])[:len(colors)]
+        assert same(cgt.show(data, colors=colors, **frame).pixels, cgt.show(data, colors=tuple(colors), **frame).pixels)
+    assert same(cgt.show(X, colors=(1, 0, 0), **frame).pixels, cgt.show(X, colors="red", **frame).pixels)
+    assert "color" not in cgt.show(X, colors=("red",) * 3, **frame).options
+    bonded = {"data": X, "bonds": PAIRS}
+    assert same(cgt.show(X, bonds=None, **frame).pixels, cgt.show(X, **frame).pixels)
+    assert "bonds" not in cgt.show(X, bonds=None, **frame).options
+    assert "bonds" not in cgt.show(X, bonds=np.False_, **frame).options and cgt.show(**bonded, **frame).options["bonds"]
+
+
 def test_three_numbers_are_a_colour_for_all():
     x, like = np.random.default_rng(1).uniform(0, 5, (20, 3)), {"size": (64, 48), "window": False}
     red = cgt.show(x, 0.3, "red", **like).pixels
