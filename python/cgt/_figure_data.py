@@ -47,13 +47,19 @@ class FigureData:
         count = len(self.positions)
         self.columns: Dict[str, Any] = {}
         self.radius, self.angstrom, self.origin = 0.0, real("angstrom", angstrom), origin
-        for name, values in dict(() if columns is None else columns).items():
+        if not 0 <= self.angstrom < np.inf:
+            raise InvalidArgument(f"angstrom: {angstrom}: must be 0, as by default, or above")
+        if not isinstance({} if columns is None else columns, Mapping):
+            raise InvalidArgument(f"columns: {type(columns).__name__}: must be a dictionary, or a table")
+        for name, values in dict(columns or {}).items():
             self.columns[str(name)] = _column(str(name), values, count)
         if radius is not None and array_of("radius", radius).ndim:
             self.columns["radius"] = numbers("radius", radius, F4, (count,))
         elif radius is not None:
             self.columns.pop("radius", None)
             self.radius = real("radius", radius)
+            if not 0 <= self.radius < np.inf:  # C takes these for none
+                raise InvalidArgument(f"radius: {radius}: must be 0, as by default, or above")
         self.triangles = None if triangles is None else numbers("triangles", triangles, U4, ("m", 3))
         self.bonds = None
         if bonds is not None:
@@ -64,10 +70,13 @@ class FigureData:
             edges = numbers("cell", cell, F8)
             self.edges = np.diag(edges) if edges.shape == (3,) else edges
             check_shape("cell", self.edges, (3, 3))
-            self.periodic = np.broadcast_to(np.asarray(pbc), (3,)).astype(np.int8)
-            self.corner, self.unwrapped = numbers("corner", corner, F8, (3,)), np.asarray(unwrapped) != 0
+            self.periodic, self.unwrapped = flags("pbc", pbc), flags("unwrapped", unwrapped) != 0
+            self.corner = numbers("corner", corner, F8, (3,))
             self._complete()
-        self.number, self.step, self.time, self.unread = number, step, time, unread
+        self.number, self.step, self.unread = number, step, unread
+        self.time = None if time is None else numbers("time", time, F8)
+        if self.time is not None and self.time.ndim:
+            raise InvalidArgument(f"time: shape {self.time.shape}: must be one number")
 
     def _complete(self) -> None:
         """Sheets and chains have edges of no length: those are across the others there, as long as the data reach."""
@@ -85,7 +94,7 @@ class FigureData:
     def fill(self, ffi, number: int, origin, keep: list, tables: Dict[str, List[str]]):
         """The C struct, and in `keep` what it points to; tables: of words, by column, from frame to frame."""
         c = ffi.new("cgt_figure_data *")
-        c.number = whole("number", number, 0, 2**63) if self.number is None else whole("number", self.number, 0, 2**63)
+        c.number = whole("number", number if self.number is None else self.number, 0, 2**63 - 1)
         c.step = c.number if self.step is None else whole("step", self.step, -2**63, 2**63 - 1)
         if self.time is not None:
             keep.append(ffi.new("double *", float(self.time)))
@@ -203,7 +212,9 @@ def take(given, **more) -> FigureData:
     more = {name: value for name, value in more.items() if value is not None}
     if "columns" in more:
         table = more["columns"]
-        table = {name: table[name] for name in table} if hasattr(table, "to_numpy") else dict(table)
+        if not isinstance(table, Mapping) and not hasattr(table, "to_numpy"):  # each frame of a run reads them
+            raise InvalidArgument(f"columns: {type(table).__name__}: must be a dictionary, or a table")
+        table = {name: table[name] for name in table}
         more["columns"] = {**found.get("columns", {}), **table}
     return FigureData(**{**found, **more})
 

@@ -12,7 +12,7 @@ from . import _arrays
 from ._arrays import F4, Hold, Outputs
 from ._calls import Out, _Call, _expand, _bytes_out
 from ._gate import nesting
-from ._native import InvalidArgument, TooLarge, enum_value, exception_of, ffi, instance, lib, pair, real, whole
+from ._native import InvalidArgument, TooLarge, enum_value, exception_of, ffi, instance, lib, pair, real, several, whole
 from .geometry import Camera, Light
 from .results import FRAME_FIELDS, NO_HIT, Frame
 
@@ -105,7 +105,7 @@ class Frames:
         (lights, height, width) bool
             Whether anything lies between the pixel's hit and the light.
         """
-        lights = [lights] if isinstance(lights, Light) else list(lights)
+        lights = (lights,) if isinstance(lights, Light) else several("lights", lights, "cgt.Light")
         array = ffi.new("cgt_light[]", [instance("lights", light, Light)._values() for light in lights])
         height, width = instance("frame", frame, Frame).shape
         camera = instance("frame.camera", frame.camera, Camera)._copy()

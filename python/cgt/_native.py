@@ -118,7 +118,7 @@ def exception_of(result, message=""):
 def enum_value(prefix, name, what, library=lib):
     """The number of an enumerator by the end of its name, in any case; `what` is the argument, for the message."""
     try:
-        if not name.isascii():  # cffi tells that by a SystemError
+        if not isinstance(name, str) or not name.isascii():  # cffi tells that by a SystemError
             raise AttributeError
         return getattr(library, prefix + name.upper())
     except AttributeError:

@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Mapping
 from typing import Any, List, Optional, Sequence, Union
 
 import numpy as np
@@ -97,6 +98,8 @@ def show(data, radii=None, colors: Any = None, *, bonds: Any = False, window: Op
         options["color"] = colors
     elif colors is not None:
         a = array_of("colors", colors, np.nan)
+        if not a.ndim:
+            raise InvalidArgument(f"colors: {colors!r}: must be a colour, or one each")
         is_one = a.shape == (3,) and map is None and not (hasattr(data, "__len__") and len(data) == 3)
         if is_one and a.dtype.kind in "fiu":
             options["color"], own = f"#{code_of_light(light_of('colors', colors, (3,)))}", {}
@@ -104,7 +107,10 @@ def show(data, radii=None, colors: Any = None, *, bonds: Any = False, window: Op
             options["color"], own = "colors", {"colors": a}
         else:
             own = {"rgb": light_of("colors", colors, (len(a), 3))}
-        more["columns"] = {**dict(more.get("columns", {})), **own}
+        columns = more.get("columns")
+        if columns is not None and not isinstance(columns, Mapping) and not hasattr(columns, "to_numpy"):
+            raise InvalidArgument(f"columns: {type(columns).__name__}: must be a dictionary, or a table")
+        more["columns"] = {**{name: columns[name] for name in (() if columns is None else columns)}, **own}
     figure = Figure(**options, bonds=bonds).show(data, radius=radii, **more)
     shown = figure._shown
     if shown is not None and (window or (window is None and shown.triangles is None and _can_open())):

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._arrays import F4, F8, U1, U2, U4, array_of, check_shape, numbers
-from ._native import InvalidArgument, load_part, real
+from ._native import InvalidArgument, load_part, real, switch
 
 ffi, lib = load_part("picture")
 STEPS = 1024  # as in cgt-render
@@ -74,6 +74,7 @@ def _of_text(name: str, text: str) -> list:
 
 def light_of(name: str, colors, shape: tuple = (3,), linear: bool = False) -> np.ndarray:
     """The one rule for colours: what an argument gives, as linear float32 of its own, of a shape that ends with 3."""
+    linear = switch("linear", linear)
     if isinstance(colors, str):
         a = np.array(_of_text(name, colors), U1)
     else:

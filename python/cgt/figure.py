@@ -21,11 +21,12 @@ from . import _arrays
 from ._arrays import U1, Hold
 from ._figure_data import FigureData, frames_of, is_run, take
 from ._gate import Gate
-from ._native import Error, InvalidArgument, Plain, exception_of, instance, load_part, real, struct_values, whole
+from ._native import (Error, InvalidArgument, Plain, exception_of, instance, load_part, real, struct_values, switch,
+                      text_of_path, whole)
 from .colors import code_of, code_of_light, light_of
 from .context import Context
 from .geometry import Camera
-from .picture import encode_png
+from .picture import check_png, encode_png
 from .trajectory import Trajectory, TrajectorySlice
 
 ffi, lib = load_part("figure")
@@ -66,11 +67,13 @@ def _in_python(text: str) -> str:
 
 
 def _number_text(keyword: str, value) -> str:
-    if isinstance(value, (bool, np.bool_)):
-        raise InvalidArgument(f"{keyword}: {value!r}: must be a number")
-    if isinstance(value, (int, np.integer)):
-        return str(int(value))
-    return repr(float(value))
+    one = value[()] if isinstance(value, np.ndarray) and not value.ndim else value
+    try:
+        if isinstance(one, (bool, np.bool_, str, bytes, bytearray, np.ndarray, np.complexfloating)):
+            raise TypeError
+        return str(int(one)) if isinstance(one, (int, np.integer)) else repr(float(one))
+    except (TypeError, ValueError, OverflowError):
+        raise InvalidArgument(f"{keyword}: {value!r}: must be a number") from None
 
 
 def _fov_of(c) -> float:
@@ -83,6 +86,8 @@ def _fov_of(c) -> float:
 def _text_of(keyword: str, row, value) -> str:
     """One value as C reads it."""
     is_color = row.kind == "color" or row.name == "color"
+    if isinstance(value, np.ndarray) and not value.ndim:
+        value = value[()]
     if isinstance(value, Camera):
         c = instance(keyword, value, Camera)._struct
         if c.t_min or 0 < c.t_max < math.inf or c.mask:
@@ -162,14 +167,15 @@ class Figure(Plain):
     more:
 
     radius : float or (n,) float
+        0: as without it, by element, else 0.5.
     columns : dict or table of (n,)
         Numbers or words for colours and formulas; what is masked or None is NaN, or no word. Some mean something: id,
         type, element (atomic numbers), velocity (n, 3), normal (of vertices, (n, 3)).
     bonds : (m, 2) int
         Pairs, for ``bonds=True``.
     cell, pbc, corner, unwrapped
-        Edges of the box as rows, or three lengths; along which it is periodic; its corner; along which places go on
-        beyond it.
+        Edges of the box as rows, or three lengths; along which it is periodic, True, False, or three of them; its
+        corner; along which places go on beyond it, in the same way.
     number, step, time : number
         Of the frame in its run; by default frames are counted.
     angstrom : float
@@ -543,9 +549,7 @@ class Figure(Plain):
 
     def save(self, path, dpi: Optional[float] = None) -> None:
         """Writes the picture of the shown frame, a PNG file. dpi: pixels to an inch, as the file tells them."""
-        ending = os.path.splitext(os.fspath(path))[1]
-        if ending.lower() not in (".png", ""):
-            raise InvalidArgument(f"path: {ending}: pictures are saved as .png; movie() makes movies")
+        check_png(path, "; movie() makes movies")
         data = encode_png(self.pixels, dpi)
         with open(path, "wb") as file:
             file.write(data)
@@ -597,6 +601,7 @@ class Figure(Plain):
         """
         if not is_run(run) and not hasattr(run, "atoms"):
             raise InvalidArgument(f"run: {type(run).__name__}: must be frames one after the other")
+        survey, progress = switch("survey", survey), switch("progress", progress)
         with _Encoder(path, self.size, fps, quality) as encoder:
             if survey:
                 run = list(run) if isinstance(run, Iterator) else run
@@ -642,7 +647,7 @@ class _Encoder:
     _GIF = ["-filter_complex", "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1"]
 
     def __init__(self, path, size, fps, quality):
-        self.path, lost = os.path.abspath(os.fspath(path)), 100 - whole("quality", quality, 1, 100)
+        self.path, lost = os.path.abspath(text_of_path("path", path)), 100 - whole("quality", quality, 1, 100)
         ending = os.path.splitext(self.path)[1].lower()
         x264 = ["-crf", str(min(51, round(0.9 * lost))), "-c:v", "libx264", "-preset", "veryfast"]
         ways = {".gif": self._GIF, ".webm": self._COLORS + ["-crf", str(min(63, round(1.5 * lost)))] + self._VP9,

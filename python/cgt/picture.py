@@ -27,6 +27,8 @@ from ._native import (
     pair,
     real,
     several,
+    switch,
+    text_of_path,
     three,
     whole,
      )
@@ -53,6 +55,13 @@ def _check(handle, result: int) -> None:
         raise exception_of(result, ffi.string(text).decode(errors="replace"))
 
 
+def check_png(path, hint: str = "") -> None:
+    """Refuses a path of another kind of file."""
+    ending = os.path.splitext(text_of_path("path", path))[1]
+    if ending.lower() not in (".png", ""):
+        raise InvalidArgument(f"path: {ending}: pictures are saved as .png{hint}")
+
+
 def encode_png(pixels: np.ndarray, dpi: Optional[float] = None) -> bytes:
     """A PNG file of (height, width, 3) or (height, width, 4) uint8, as bytes; dpi: pixels to an inch, as it tells them."""
     pixels = _arrays.array_of("pixels", pixels)
@@ -67,6 +76,7 @@ def encode_png(pixels: np.ndarray, dpi: Optional[float] = None) -> bytes:
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
     head = struct.pack(">IIBBBBB", width, height, 8, {3: 2, 4: 6}[channels], 0, 0, 0)
+    dpi = None if dpi is None else real("dpi", dpi)
     if dpi is not None and not 0 < dpi <= 1e6:
         raise InvalidArgument(f"dpi: {dpi}: must be above 0 and at most 1,000,000")
     size = b"" if dpi is None else chunk(b"pHYs", struct.pack(">IIB", *[round(dpi / 0.0254)] * 2, 1))
@@ -236,7 +246,8 @@ class Picture(Plain):
         for c, (mask, opacity) in zip(style.layers, pairs):
             c.mask, c.opacity = mask, opacity
         style.outline, style.outline_color = real("outline", outline), light_of("outline_color", outline_color).tolist()
-        style.background, style.transparent = light_of("background", background).tolist(), bool(transparent)
+        style.background = light_of("background", background).tolist()
+        style.transparent, linear = switch("transparent", transparent), switch("linear", linear)
         bounced.up = up
         values = [instance("materials", m, Material)._values() for m in materials]
         self._materials = ffi.new("cgt_material[]", values)
@@ -413,8 +424,7 @@ class Picture(Plain):
 
     def save(self, path, dpi: Optional[float] = None) -> None:
         """Writes a PNG file. dpi: pixels to an inch, as the file tells them, for programs that print or set it."""
-        ending = os.path.splitext(os.fspath(path))[1]
-        if ending.lower() not in (".png", ""):
-            raise InvalidArgument(f"path: {ending}: pictures are saved as .png")
+        check_png(path)
+        data = encode_png(self.pixels, dpi)
         with open(path, "wb") as file:
-            file.write(encode_png(self.pixels, dpi))
+            file.write(data)

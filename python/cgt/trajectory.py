@@ -15,7 +15,7 @@ from typing import Any, Iterable, Iterator, Optional, Sequence, Union, overload
 import numpy as np
 
 from ._gate import Gate
-from ._native import Error, InvalidArgument, Plain, load_part, real, several, struct_values, three, whole
+from ._native import Error, InvalidArgument, Plain, load_part, real, several, struct_values, switch, three, whole
 from .geometry import Spheres, Triangles
 
 ffi, lib = load_part("trajectory")
@@ -170,8 +170,9 @@ class Trajectory(Plain):
 
     ``run[k]`` skips what lies before, and goes back where a file can; the frame after the last one read costs no more
     than `read`. A slice reads nothing until it is used. Loops begin at the first frame; that over a pipe goes on where
-    it is. After an error frames before it can be read as ever, and what failed is tried again. One thread at a time uses it: others get `InUse`. Reading releases Python's lock. What is doubtful about a
-    file comes as a warning of Python's.
+    it is. After an error frames before it can be read as ever, and what failed is tried again. One thread at a time
+    uses it: others get `InUse`. Reading releases Python's lock. What is doubtful about a file comes as a warning of
+    Python's.
     """
 
     __slots__ = ("_handle", "_gate", "_keep", "_wanted", "_next", "_count", "_failed")
@@ -463,12 +464,14 @@ def read(path, *, columns: Union[str, Sequence[str]] = (), format: Optional[str]
     single = isinstance(path, (str, bytes, os.PathLike))
     if not single and not isinstance(path, Iterable):
         raise InvalidArgument(f"path: {path!r}: must be a path, or a sequence of them")
-    paths = (path,) if single else tuple(path)
+    paths = (path,) if single else several("path", path, "paths")
     if not paths:
         raise InvalidArgument("path: an empty sequence")
-    options = {"radius": real("radius", radius), "wrapped": int(bool(wrapped)), "follow": real("follow", follow),
-               "fps": real("fps", fps), "threads": whole("threads", threads, 0, 1024), "no_limit": int(bool(no_limit)),
-               "keep": int(bool(keep)), "all_bonds": int(bool(all_bonds)), "leave_out_sites": int(bool(leave_out_sites))}
+    options = {"radius": real("radius", radius), "follow": real("follow", follow), "fps": real("fps", fps),
+               "threads": whole("threads", threads, 0, 1024)}
+    for name, flag in (("wrapped", wrapped), ("no_limit", no_limit), ("keep", keep), ("all_bonds", all_bonds),
+                       ("leave_out_sites", leave_out_sites)):
+        options[name] = int(switch(name, flag))
     for name, value in (("format", format), ("topology", topology), ("clip", clip)):
         if value is not None:
             if not isinstance(value, (str, bytes, os.PathLike)):

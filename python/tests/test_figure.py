@@ -160,6 +160,41 @@ def test_columns_of_objects_are_words_or_numbers():
             FigureData(X, columns={"q": values})
 
 
+def test_what_is_refused_is_named():
+    figure, box = cgt.Figure(**SIZE, style="plain"), {"cell": np.eye(3)}
+    for more, name in (
+        ({**box, "pbc": (1, 1)}, "pbc"), ({**box, "pbc": "yes"}, "pbc"), ({**box, "pbc": (1.5, 1, 1)}, "pbc"),
+        ({**box, "unwrapped": (1, 1)}, "unwrapped"), ({**box, "corner": 1}, "corner"), ({"time": "1 ps"}, "time"),
+        ({"time": [1, 2]}, "time"), ({"number": 2**63}, "number"), ({"step": 2**63}, "step"),
+        ({"columns": [1, 2, 3]}, "columns"), ({"columns": zip("a", [[1, 2, 3]])}, "columns"),
+        ({"radius": -1}, "radius"), ({"radius": np.nan}, "radius"), ({"radius": np.inf}, "radius"),
+        ({"angstrom": -1}, "angstrom"), ({"angstrom": np.nan}, "angstrom"), ({"cell": "a"}, "cell"),
+        ({"bonds": "a"}, "bonds"),
+    ):
+        with pytest.raises(cgt.InvalidArgument, match=f"^{name}: "):
+            figure.show(X, **more)
+        with pytest.raises(cgt.InvalidArgument, match=f"^{name}: "):
+            figure.survey([X, X], **more)
+    for pbc, wanted in ((256, [1, 1, 1]), (True, [1, 1, 1]), ((0, 1, -1), [0, 1, -1]),
+                        (np.array([0, 2, 0]), [0, 1, 0])):
+        data = FigureData(X, **box, pbc=pbc, unwrapped=pbc)
+        assert data.periodic.tolist() == wanted and data.unwrapped.tolist() == [w != 0 for w in wanted]
+    for options, name in (({"range": (None, 5)}, "range"), ({"slice": np.eye(2, 4)}, "slice"), ({"zoom": 1j}, "zoom"),
+                          ({"zoom": [None]}, "zoom"), ({"zoom": [b"2"]}, "zoom"), ({"zoom": np.array(True)}, "zoom")):
+        with pytest.raises(cgt.InvalidArgument, match=f"^{name}: "):
+            figure.set(**options)
+    assert figure.set(zoom=np.array(2.0)).options["zoom"] == "2.0"
+    figure.set(zoom=None).show(X)
+    for call, name in ((lambda: figure.save("a.png", dpi="300"), "dpi"), (lambda: figure.save(5), "path"),
+                       (lambda: figure.save("a\0.png"), "path"), (lambda: figure.movie(5, [X]), "path"),
+                       (lambda: cgt.show(X, colors="red", columns=[1]), "columns"),
+                       (lambda: cgt.show(X, colors=[1]), "columns: colors"),
+                       (lambda: cgt.show(X, colors=np.array(5)), "colors"),
+                       (lambda: cgt.show(X, colors=X / 4, columns=[1]), "columns")):
+        with pytest.raises(cgt.InvalidArgument, match=f"^{name}"):
+            call()
+
+
 def test_what_is_refused_changes_nothing():
     figure = cgt.Figure(**SIZE, color="v").show(X, columns={"v": [1, 2, 3]})
     before, settings = figure.pixels, figure.settings
