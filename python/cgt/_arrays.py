@@ -85,7 +85,13 @@ def _unmasked(name: str, a, masked: Optional[float]):
         return a
     if masked is None and np.ma.is_masked(a):
         raise InvalidArgument(f"{name}: {np.ma.count_masked(a)} elements are masked: fill or drop them")
-    return a.data if masked is None else a.astype(F8).filled(masked)
+    if masked is None or a.dtype.kind not in "biufUSO":
+        return a.data
+    if a.dtype.kind in "biuf":
+        return a.astype(F8).filled(masked)
+    b = a.data.copy()
+    b[np.ma.getmaskarray(a)] = None if a.dtype == object else ""  # no word
+    return b
 
 
 def array_of(name: str, a, masked: Optional[float] = None, follow: bool = False) -> np.ndarray:
@@ -157,6 +163,14 @@ def numbers(name: str, a, dtype: np.dtype, shape: Sequence = (), masked: Optiona
         if a.min() < limit.min or a.max() > limit.max:
             raise InvalidArgument(f"{name}: {a.min()} to {a.max()}: must fit {dtype}")
     return a.astype(dtype)
+
+
+def flags(name: str, a) -> np.ndarray:
+    """One flag for each of three edges, or one for all, as int8 (3,) of its own: 0, 1, and -1 for what is not known."""
+    b = array_of(name, a)
+    if b.dtype.kind not in "biu" or b.shape not in ((), (3,)):
+        raise InvalidArgument(f"{name}: {a!r}: must be True, False, or three of them")
+    return np.array(np.broadcast_to(np.where(b == -1, -1, b != 0), (3,)), np.int8)
 
 
 def given_rows(name: str, a, dtypes: Sequence[np.dtype], width: int) -> Tuple[Hold, int]:

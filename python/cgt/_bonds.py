@@ -8,8 +8,52 @@ from typing import Optional, Sequence, Tuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._arrays import F8, I8, array_of, check_shape, numbers
+from ._arrays import F8, I8, array_of, flags, numbers
 from ._native import InvalidArgument
+
+
+def _faces(rows: np.ndarray) -> np.ndarray:
+    """Sums of a lattice's edges, halfway to which the faces of its cell lie: what none of them shortens is the least.
+
+    The edges are reduced as Selling does (Conway and Sloane, Low-Dimensional Lattices VI, 1992) until no two of them
+    and their negative sum meet at less than a right angle.
+    """
+    edges, count = [*rows, -rows.sum(axis=0)], len(rows)
+    for _ in range(1000 if count > 1 else 0):  # it ends by itself in exact arithmetic
+        acute = [(i, j) for i in range(count) for j in range(i + 1, count + 1) if edges[i] @ edges[j] > 1e-12 * (
+            edges[i] @ edges[i] + edges[j] @ edges[j])]
+        if not acute:
+            break
+        i, j = acute[0]
+        if count == 2:
+            edges[3 - i - j], edges[j] = edges[j] - edges[i], -edges[j]
+        else:
+            edges = [e if k in (i, j) else e + edges[i] for k, e in enumerate(edges)]
+            edges[i] = -edges[i]
+    some = np.arange(1, 1 << count)[:, None] >> np.arange(count) & 1
+    return some @ np.array(edges)[:count]
+
+
+def _nearest(step: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """The least of each step and its images by periodic edges; half of an edge is no crossing."""
+    if not len(rows):
+        return step
+    sums, step = _faces(rows), step.copy()
+    with np.errstate(over="ignore"):  # shorter ones reach no face
+        longer = np.flatnonzero((step * step).sum(axis=1) > (sums * sums).sum(axis=1).min() / 4)
+    for _ in range(1000):  # each turn leaves over what it made shorter
+        now = step[longer]
+        moved = np.zeros(len(now), bool)
+        for face in sums:
+            with np.errstate(all="ignore"):
+                share = now @ face / (face @ face)
+            crosses = (np.abs(share) > 0.5 + 1e-6) & np.isfinite(share)
+            now[crosses] -= np.rint(share[crosses])[:, None] * face
+            moved |= crosses
+        step[longer], longer = now, longer[moved]
+        if not len(longer):
+            break
+    return step
 
 
 def half_bonds(positions: ArrayLike, bonds: ArrayLike, edges: Optional[ArrayLike] = None,
@@ -24,8 +68,8 @@ def half_bonds(positions: ArrayLike, bonds: ArrayLike, edges: Optional[ArrayLike
     edges : (3, 3) float, optional
         Edges of the box as rows, tilted or not; None: bonds go as the positions say.
     periodic : three ints, optional
-        Along each edge; 0: it is not, and needs no length. A bond longer than half of a periodic edge goes to
-        the atom's nearest image.
+        Along each edge; 0: it is not, and needs no length. A bond goes to the atom's nearest image, however tilted the
+        box is.
 
     Returns
     -------
@@ -47,14 +91,11 @@ def half_bonds(positions: ArrayLike, bonds: ArrayLike, edges: Optional[ArrayLike
         raise InvalidArgument(f"bonds: {pairs.min()} to {pairs.max()}, of {len(x)} positions")
     step = x[pairs[:, 1]] - x[pairs[:, 0]]
     if edges is not None:
-        flags = array_of("periodic", periodic)
-        check_shape("periodic", flags, (3,))
         # along the periodic edges alone: the others need no length
-        rows = numbers("edges", edges, F8, (3, 3))[flags != 0]
-        if len(rows) and np.linalg.matrix_rank(rows) < len(rows):
+        rows = numbers("edges", edges, F8, (3, 3))[flags("periodic", periodic) != 0]
+        if not np.isfinite(rows).all() or (len(rows) and np.linalg.matrix_rank(rows) < len(rows)):
             raise InvalidArgument(f"edges: {rows.tolist()}: must be the periodic edges of a box")
-        share = step @ np.linalg.pinv(rows)
-        step = step - np.where(np.abs(share) > 0.5 + 1e-6, np.rint(share), 0) @ rows  # half of an edge is no crossing
+        step = _nearest(step, rows)
     begin = x[np.concatenate([pairs[:, 0], pairs[:, 1]])]
     end = begin + np.concatenate([step, -step]) / 2
     return np.stack([begin, end], axis=1).reshape(-1, 3), np.concatenate([pairs[:, 0], pairs[:, 1]])

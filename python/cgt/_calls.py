@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import math
 from types import SimpleNamespace
-from typing import Mapping, Optional, Sequence, Tuple, Union
+from typing import Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from ._arrays import F4, U4, Hold, Outputs, is_output, ray_vectors, scalar_pointers, vector_pointers
-from ._native import InvalidArgument, enum_value, ffi, instance, struct_values
+from ._native import InvalidArgument, enum_value, ffi, instance, several, struct_values, switch
 from .research import TraceOptions
 
 Out = Optional[Union[Mapping[str, np.ndarray], np.ndarray]]
@@ -22,7 +22,7 @@ class _Call:
     def __init__(self, precision: str, statistics: bool, research):
         self.struct = ffi.new("cgt_trace_options *")
         self.struct.precision = enum_value("CGT_PRECISION_", precision, "precision")
-        self.counts = ffi.new("cgt_trace_statistics *") if statistics else None
+        self.counts = ffi.new("cgt_trace_statistics *") if switch("statistics", statistics) else None
         if self.counts:
             self.struct.statistics = self.counts
         if research is not None:
@@ -33,18 +33,35 @@ class _Call:
         return SimpleNamespace(**struct_values(self.counts[0])) if self.counts else None
 
 
-def _expand(fields: Sequence[str]) -> Tuple[str, ...]:
-    """'uv' stands for u and v, which C gives together."""
-    try:
-        names = (fields,) if isinstance(fields, str) else tuple(fields)
-    except TypeError:
-        names = (fields,)
-    wanted = []
+def _names(argument: str, names: Sequence[str]) -> Tuple[str, ...]:
+    """One name, or several."""
+    if names.__class__ is not tuple:  # most are, and need no look at what else they may be
+        if isinstance(names, str) or not isinstance(names, Iterable):
+            names = (names,)
+        names = several(argument, list(names) if isinstance(names, Mapping) else names, "names")
     for name in names:
         if not isinstance(name, str):
-            raise InvalidArgument(f"fields: {name!r}: must be names of fields")
+            raise InvalidArgument(f"{argument}: {name!r}: must be names of fields")
+    return tuple(names)
+
+
+def _expand(fields: Sequence[str]) -> Tuple[str, ...]:
+    """'uv' stands for u and v, which C gives together."""
+    wanted: List[str] = []
+    for name in _names("fields", fields):
         wanted += ["u", "v"] if name in ("uv", "u", "v") else [name]
     return tuple(dict.fromkeys(wanted))
+
+
+def _taken(argument: str, given, names: Sequence[str]) -> dict:
+    """Arrays by name of what a call returned, or of what has them in the same way."""
+    found = {}
+    for name in names:
+        try:
+            found[name] = given[name]
+        except (TypeError, ValueError, LookupError):
+            raise InvalidArgument(f"{argument}: {type(given).__name__}: it lacks {name!r}") from None
+    return found
 
 
 class _Rays:

@@ -5,12 +5,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from numbers import Number
 from typing import Any, Dict, Iterator, List, NamedTuple, Optional
 
 import numpy as np
 
 from . import _arrays
-from ._arrays import F4, F8, U4, Hold, array_of, check_shape, numbers
+from ._arrays import F4, F8, I8, U4, Hold, array_of, check_shape, flags, numbers
 from ._native import InvalidArgument, real, whole
 from .trajectory import Trajectory, TrajectoryFrame, TrajectorySlice
 
@@ -46,13 +47,19 @@ class FigureData:
         count = len(self.positions)
         self.columns: Dict[str, Any] = {}
         self.radius, self.angstrom, self.origin = 0.0, real("angstrom", angstrom), origin
-        for name, values in dict(() if columns is None else columns).items():
+        if not 0 <= self.angstrom < np.inf:
+            raise InvalidArgument(f"angstrom: {angstrom}: must be 0, as by default, or above")
+        if not isinstance({} if columns is None else columns, Mapping):
+            raise InvalidArgument(f"columns: {type(columns).__name__}: must be a dictionary, or a table")
+        for name, values in dict(columns or {}).items():
             self.columns[str(name)] = _column(str(name), values, count)
         if radius is not None and array_of("radius", radius).ndim:
             self.columns["radius"] = numbers("radius", radius, F4, (count,))
         elif radius is not None:
             self.columns.pop("radius", None)
             self.radius = real("radius", radius)
+            if not 0 <= self.radius < np.inf:  # C takes these for none
+                raise InvalidArgument(f"radius: {radius}: must be 0, as by default, or above")
         self.triangles = None if triangles is None else numbers("triangles", triangles, U4, ("m", 3))
         self.bonds = None
         if bonds is not None:
@@ -63,10 +70,13 @@ class FigureData:
             edges = numbers("cell", cell, F8)
             self.edges = np.diag(edges) if edges.shape == (3,) else edges
             check_shape("cell", self.edges, (3, 3))
-            self.periodic = np.broadcast_to(np.asarray(pbc), (3,)).astype(np.int8)
-            self.corner, self.unwrapped = numbers("corner", corner, F8, (3,)), np.asarray(unwrapped) != 0
+            self.periodic, self.unwrapped = flags("pbc", pbc), flags("unwrapped", unwrapped) != 0
+            self.corner = numbers("corner", corner, F8, (3,))
             self._complete()
-        self.number, self.step, self.time, self.unread = number, step, time, unread
+        self.number, self.step, self.unread = number, step, unread
+        self.time = None if time is None else numbers("time", time, F8)
+        if self.time is not None and self.time.ndim:
+            raise InvalidArgument(f"time: shape {self.time.shape}: must be one number")
 
     def _complete(self) -> None:
         """Sheets and chains have edges of no length: those are across the others there, as long as the data reach."""
@@ -84,7 +94,7 @@ class FigureData:
     def fill(self, ffi, number: int, origin, keep: list, tables: Dict[str, List[str]]):
         """The C struct, and in `keep` what it points to; tables: of words, by column, from frame to frame."""
         c = ffi.new("cgt_figure_data *")
-        c.number = whole("number", number, 0, 2**63) if self.number is None else whole("number", self.number, 0, 2**63)
+        c.number = whole("number", number if self.number is None else self.number, 0, 2**63 - 1)
         c.step = c.number if self.step is None else whole("step", self.step, -2**63, 2**63 - 1)
         if self.time is not None:
             keep.append(ffi.new("double *", float(self.time)))
@@ -129,15 +139,36 @@ def _floats(name: str, values, shape) -> np.ndarray:
     return numbers(name, a, a.dtype if a.dtype == F4 else F8, shape)
 
 
+def _of_objects(name: str, a: np.ndarray) -> np.ndarray:
+    """Words or numbers of an array of objects, as tables have them; what is missing is no word, or NaN."""
+    missing = np.array([x is None or type(x).__name__ == "NAType" or (isinstance(x, (float, np.floating)) and x != x)
+                        for x in a.flat], bool).reshape(a.shape)
+    found = a[~missing].tolist()
+    if found and all(isinstance(x, (str, bytes)) for x in found):
+        texts = [x.decode(errors="replace") if isinstance(x, bytes) else x for x in np.where(missing, "", a).flat]
+        return np.array(texts, str).reshape(a.shape)
+    if not all(isinstance(x, (Number, np.bool_)) and not isinstance(x, (complex, np.complexfloating)) for x in found):
+        kinds = ", ".join(sorted({type(x).__name__ for x in found}))
+        raise InvalidArgument(f"{name}: objects ({kinds}): must be words or numbers, not both")
+    try:
+        if len(found) == a.size and all(isinstance(x, (int, np.integer)) for x in found):
+            return a.astype(I8)
+        return np.where(missing, np.nan, a).astype(F8)
+    except OverflowError:
+        raise InvalidArgument(f"{name}: whole numbers beyond what 64 bits hold") from None
+
+
 def _column(name: str, values, count: int):
     """Numbers of a column, or words."""
     known = values.known if isinstance(values, Words) else []
     a = array_of(f"columns: {name}", values.texts if isinstance(values, Words) else values, np.nan)
+    if a.dtype.kind in "US" and isinstance(values, (list, tuple)) and a.ndim == 1:
+        a = np.array(values, object)  # numpy makes words of the numbers among them
     if a.dtype == object:
-        a = a.astype(str)
+        a = _of_objects(f"columns: {name}", a)
     if a.dtype.kind in "US":
         check_shape(f"columns: {name}", a, (count,))
-        return Words(a.astype(str), known)
+        return Words(a if a.dtype.kind == "U" else np.char.decode(a, "utf-8", "replace"), known)
     if name in _WHOLE:
         return numbers(name, a, U4, (count,))
     if name in ("velocity", "normal", "rgb"):
@@ -165,20 +196,25 @@ def take(given, **more) -> FigureData:
         found = _of_mdtraj(given)
     elif hasattr(given, "vertices") and hasattr(given, "faces"):
         found = {"positions": given.vertices, "triangles": given.faces}
-    elif isinstance(given, tuple) and len(given) == 2 and all(np.ndim(part) == 2 for part in given):
+    elif isinstance(given, tuple) and len(given) == 2 and all(_axes(part) == 2 for part in given):
         found = {"positions": given[0], "triangles": given[1]}
     elif hasattr(given, "columns") and hasattr(given, "to_numpy"):
         names = [name for name in given.columns if name not in ("x", "y", "z")]
         if len(names) + 3 != len(given.columns):
             raise InvalidArgument("data: a table needs columns x, y and z")
-        found = {"positions": np.column_stack([np.asarray(given[name], float) for name in "xyz"]),
+        places = [_column(name, given[name], len(given[name])) for name in "xyz"]
+        if any(isinstance(a, Words) for a in places):
+            raise InvalidArgument("data: a table needs numbers in its columns x, y and z")
+        found = {"positions": np.column_stack(places),
                  "columns": {name: np.asarray(given[name]) for name in names}}
     else:
         found = {"positions": given}
     more = {name: value for name, value in more.items() if value is not None}
     if "columns" in more:
         table = more["columns"]
-        table = {name: table[name] for name in table} if hasattr(table, "to_numpy") else dict(table)
+        if not isinstance(table, Mapping) and not hasattr(table, "to_numpy"):  # each frame of a run reads them
+            raise InvalidArgument(f"columns: {type(table).__name__}: must be a dictionary, or a table")
+        table = {name: table[name] for name in table}
         more["columns"] = {**found.get("columns", {}), **table}
     return FigureData(**{**found, **more})
 
@@ -302,9 +338,16 @@ def is_run(given) -> bool:
             not isinstance(given, list) or bool(given) and not _is_place(given[0]))
 
 
+def _axes(thing) -> int:
+    """How many axes something has, by what it begins with: of a mesh, rows are as many as they are."""
+    if isinstance(thing, (list, tuple)):
+        return 1 + (_axes(thing[0]) if thing else 0)
+    return np.ndim(thing)
+
+
 def _is_place(thing) -> bool:
     """Whether this begins a list of places: it is no frame."""
-    return isinstance(thing, (list, tuple, np.ndarray)) and np.ndim(thing) < 2 or np.isscalar(thing)
+    return isinstance(thing, (list, tuple, np.ndarray)) and _axes(thing) < 2 or np.isscalar(thing)
 
 
 def frames_of(run) -> Iterator[Any]:

@@ -9,10 +9,10 @@ from typing import Callable, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _arrays
-from ._arrays import F4, Outputs
+from ._arrays import F4, Hold, Outputs
 from ._calls import Out, _Call, _expand, _bytes_out
 from ._gate import nesting
-from ._native import InvalidArgument, TooLarge, enum_value, exception_of, ffi, instance, lib, pair, real, whole
+from ._native import InvalidArgument, TooLarge, enum_value, exception_of, ffi, instance, lib, pair, real, several, whole
 from .geometry import Camera, Light
 from .results import FRAME_FIELDS, NO_HIT, Frame
 
@@ -105,18 +105,27 @@ class Frames:
         (lights, height, width) bool
             Whether anything lies between the pixel's hit and the light.
         """
-        lights = [lights] if isinstance(lights, Light) else list(lights)
+        lights = (lights,) if isinstance(lights, Light) else several("lights", lights, "cgt.Light")
         array = ffi.new("cgt_light[]", [instance("lights", light, Light)._values() for light in lights])
         height, width = instance("frame", frame, Frame).shape
         camera = instance("frame.camera", frame.camera, Camera)._copy()
         options = ffi.new("cgt_shadow_options *", {"t_min": real("t_min", t_min)})
         call = _Call("exact", False, research)
-        row = self._row(frame)
-        full = _bytes_out("out", out, (len(lights), height, row), np.zeros)  # zeros: of rows that are not traced
+        shape, row = (len(lights), height, width), self._row(frame)
+        given = None if out is None else _bytes_out("out", out, shape)
+        full = given
+        if full is None or row != width:  # C's rows are as far apart as the frame's
+            full = Hold(np.zeros((*shape[:2], row), np.uint8))  # zeros: of rows that are not traced
+            if given is not None:
+                full.view[:, :, :width] = given.view
         with self._gate.shared:
             self._check(lib.cgt_occluded_frame(self._traced, camera._struct, frame._struct, array, len(lights), options,
                                                _arrays.pointer(full.view), call.struct))
-        return full.view.view(bool)[:, :, :width]
+        if given is None:
+            return full.view.view(bool)[:, :, :width]
+        if given is not full:
+            given.view[...] = full.view[:, :, :width]
+        return given.view.view(bool)
 
     @staticmethod
     def _row(frame: Frame) -> int:

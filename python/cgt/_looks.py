@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from . import _arrays
 from ._arrays import F4, U1, U2, U4, Hold, numbers
 from ._held import Held
-from ._native import InvalidArgument, Plain, enum_value, given, load_part, real, three, whole
+from ._native import InvalidArgument, Plain, enum_value, given, load_part, real, switch, three, whole
 from .colors import STEPS, entries, light_of, palette as palette_of
 
 _, lib = load_part("picture")
@@ -65,6 +65,7 @@ class Look(Plain):
                  vertex_normals: Optional[ArrayLike] = None, halves: bool = False,
                  material: Union[int, ArrayLike] = 0, bodies: Optional[ArrayLike] = None, sheet: bool = False):
         self._made = False
+        per_vertex = switch("per_vertex", per_vertex)
         # C takes black for none
         self._color = (0, 0, 0) if color is None else np.maximum(
             light_of("color", color, linear=linear), 1e-30).tolist()
@@ -83,9 +84,9 @@ class Look(Plain):
     "palette_steps": whole(
         "palette_steps",
         palette_steps),
-        "per_vertex": bool(per_vertex),
-        "halves": bool(halves),
-        "sheet": bool(sheet),
+        "per_vertex": switch("per_vertex", per_vertex),
+        "halves": switch("halves", halves),
+        "sheet": switch("sheet", sheet),
         "material": whole(
             "material",
             material,

@@ -118,7 +118,7 @@ def exception_of(result, message=""):
 def enum_value(prefix, name, what, library=lib):
     """The number of an enumerator by the end of its name, in any case; `what` is the argument, for the message."""
     try:
-        if not name.isascii():  # cffi tells that by a SystemError
+        if not isinstance(name, str) or not name.isascii():  # cffi tells that by a SystemError
             raise AttributeError
         return getattr(library, prefix + name.upper())
     except AttributeError:
@@ -213,6 +213,36 @@ def pair(name, value):
     except (TypeError, ValueError):
         raise InvalidArgument(f"{name}: {value!r}: must be two values") from None
     return first, second
+
+
+def text_of_path(name, value):
+    """A path as text, or an error that names it."""
+    try:
+        text = os.fsdecode(value)
+    except TypeError:
+        raise InvalidArgument(f"{name}: {value!r}: must be text or a path") from None
+    if "\0" in text:
+        raise InvalidArgument(f"{name}: {value!r}: a zero is in it")
+    return text
+
+
+def switch(name, value):
+    """True or False, or an error that names it."""
+    try:
+        return bool(value)
+    except (TypeError, ValueError):  # an array
+        raise InvalidArgument(f"{name}: {type(value).__name__}: must be True or False") from None
+
+
+def several(name, value, what):
+    """A tuple of what is looped over once, or an error that names it."""
+    try:
+        if isinstance(value, (str, bytes, Mapping)):
+            raise TypeError
+        values = iter(value)
+    except TypeError:
+        raise InvalidArgument(f"{name}: {value!r}: must be a sequence of {what}") from None
+    return tuple(values)
 
 
 def _remake(kind, base, arguments, rest):

@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 
 from . import _arrays
 from ._arrays import F4, U4, Outputs, ray_vectors, scalar_pointers, vector_pointers
-from ._calls import Out, _Call, _Rays, _hits_struct, _flat, _expand, _bytes_out
-from ._native import InvalidArgument, enum_value, ffi, instance, lib, pair, real, three, whole
+from ._calls import Out, _Call, _Rays, _hits_struct, _flat, _expand, _bytes_out, _names, _taken
+from ._native import InvalidArgument, enum_value, ffi, instance, lib, pair, real, switch, three, whole
 from .geometry import Light
 from .results import BOUNCED_FIELDS, RAY_FIELDS, ROW_FIELDS, SURFACE_FIELDS, AllHits, Fields, HitRows, Hits, SingleHit
 
@@ -175,7 +175,7 @@ class Rays:
     # ---- all hits ----
 
     def _after(self, after, crossings, shape):
-        options = ffi.new("cgt_all_hits_options *", {"crossings": crossings})
+        options = ffi.new("cgt_all_hits_options *", {"crossings": switch("crossings", crossings)})
         if after is None:
             return options, []
         if not isinstance(after, Mapping) or "primitive" not in after:
@@ -222,6 +222,8 @@ class Rays:
         """
         rays = _Rays(org, dir, t_min=t_min, t_max=t_max, mask=mask, skip_primitive=skip_primitive,
                      skip_geometry=skip_geometry)
+        if len(rays.shape) > 1:
+            raise InvalidArgument(f"org, dir: shape {rays.shape + (3,)}: must be (n, 3)")
         return self._rows(rays, capacity, fields, after, crossings, _Call(precision, statistics, None))
 
     def trace_all_rays(self, org: ArrayLike, dir: ArrayLike, fields: Sequence[str] = ("t", "primitive"), *,
@@ -298,10 +300,9 @@ class Rays:
         surfaces : Fields
         """
         rays = _Rays(org, dir, skip_primitive=skip_primitive, skip_geometry=skip_geometry)
-        count = rays.struct.count
-        members, stride, keep = scalar_pointers(
-            {"t": (hits["t"], F4), "primitive": (hits["primitive"], U4), "geometry": (hits["geometry"], U4)},
-            rays.shape)
+        count, names = rays.struct.count, _names("surfaces", surfaces)
+        taken = _taken("hits", hits, ("t", "primitive", "geometry"))
+        members, stride, keep = scalar_pointers({k: (a, F4 if k == "t" else U4) for k, a in taken.items()}, rays.shape)
         found = ffi.new("cgt_hits *", {"stride": stride, **members})
         media = ffi.new("cgt_media *", {"inside": real("inside", inside), "outside": real("outside", outside)})
         given = {name: (a, F4) for name, a in (("inside_of_ray", inside_of_ray), ("outside_of_ray", outside_of_ray))
@@ -311,7 +312,6 @@ class Rays:
             setattr(media, name, p)
         new = [Outputs((count,), BOUNCED_FIELDS, BOUNCED_FIELDS) for _ in range(2)]
         structs = [ffi.new("cgt_bounced_rays *", {"stride": 4, "vector_stride": 12, **k.pointers()}) for k in new]
-        names = (surfaces,) if isinstance(surfaces, str) else tuple(surfaces)
         # one stride for all of a surface's numbers: a record of 8-byte columns
         record = np.zeros(count, np.dtype({"names": list(SURFACE_FIELDS), "offsets": [0, 24, 48, 64, 72],
                                            "formats": [(d, (w,)) if w > 1 else d
@@ -326,6 +326,5 @@ class Rays:
     def trace_bounced_rays(self, rays: Fields, fields: Sequence[str] = ("t", "primitive", "geometry")) -> Hits:
         """Traces rays of `bounce_rays`; those inside spheres meet these again at their far side."""
         fields = tuple(dict.fromkeys(_expand(fields) + ("t", "primitive", "geometry")))
-        made = _Rays(rays["org"], rays["dir"], t_max=rays["t_max"], t_min=rays["t_min"],
-                     skip_primitive=rays["skip_primitive"], skip_geometry=rays["skip_geometry"])
+        made = _Rays(**_taken("rays", rays, ("org", "dir", "t_max", "t_min", "skip_primitive", "skip_geometry")))
         return self._trace(lib.cgt_trace_bounced_rays, made, fields, None, _Call("exact", False, None))

@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Mapping
 from typing import Any, List, Optional, Sequence, Union
 
 import numpy as np
@@ -52,10 +53,10 @@ def show(data, radii=None, colors: Any = None, *, bonds: Any = False, window: Op
     radii : float or (n,) float, optional
         None: those that it has, else by element, else 0.5.
     colors : colour, (n, 3) numbers, n names or (n,) numbers, optional
-        One for all, a name or three numbers; one each; or values, one each, for the map of the option `colormap`. None:
-        what the option `color` says, by itself element or type, where it has some.
+        One for all, a name or three numbers, as a tuple of three always is; one each; or values, one each, for the map
+        of the option `colormap`. None: what the option `color` says, by itself element or type, where it has some.
     bonds : bool, number or (m, 2) int, optional
-        True: those that it has; a number: all pairs so near; pairs.
+        None, False: none; True: those that it has; a number: all pairs so near; pairs.
     window : bool, optional
         True: an error where no window can be opened; False: none. It has particles, their columns of numbers, and the
         options, but neither bonds that are pairs, nor a box, nor colours of each.
@@ -87,15 +88,18 @@ def show(data, radii=None, colors: Any = None, *, bonds: Any = False, window: Op
         options["range"] = (low, high)
     if colors is not None and "color" in options:
         raise InvalidArgument("colors: color says another thing")
-    if not isinstance(bonds, (bool, int, float, np.number)):
+    if bonds is not None and not isinstance(bonds, (bool, np.bool_, int, float, np.number)):
         bonds, more["bonds"] = True, bonds
     if isinstance(colors, str):
         code = code_of(colors)
         options["color"] = f"#{code}" if code else colors
-    elif isinstance(colors, tuple):
+    elif isinstance(colors, tuple) and len(colors) == 3 and not any(
+            isinstance(x, str) or not np.isscalar(x) for x in colors):
         options["color"] = colors
     elif colors is not None:
         a = array_of("colors", colors, np.nan)
+        if not a.ndim:
+            raise InvalidArgument(f"colors: {colors!r}: must be a colour, or one each")
         is_one = a.shape == (3,) and map is None and not (hasattr(data, "__len__") and len(data) == 3)
         if is_one and a.dtype.kind in "fiu":
             options["color"], own = f"#{code_of_light(light_of('colors', colors, (3,)))}", {}
@@ -103,7 +107,10 @@ def show(data, radii=None, colors: Any = None, *, bonds: Any = False, window: Op
             options["color"], own = "colors", {"colors": a}
         else:
             own = {"rgb": light_of("colors", colors, (len(a), 3))}
-        more["columns"] = {**dict(more.get("columns", {})), **own}
+        columns = more.get("columns")
+        if columns is not None and not isinstance(columns, Mapping) and not hasattr(columns, "to_numpy"):
+            raise InvalidArgument(f"columns: {type(columns).__name__}: must be a dictionary, or a table")
+        more["columns"] = {**{name: columns[name] for name in (() if columns is None else columns)}, **own}
     figure = Figure(**options, bonds=bonds).show(data, radius=radii, **more)
     shown = figure._shown
     if shown is not None and (window or (window is None and shown.triangles is None and _can_open())):

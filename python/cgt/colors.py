@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._arrays import F4, F8, U1, U2, U4, array_of, check_shape, numbers
-from ._native import InvalidArgument, load_part, real
+from ._native import InvalidArgument, load_part, real, switch
 
 ffi, lib = load_part("picture")
 STEPS = 1024  # as in cgt-render
@@ -74,6 +74,7 @@ def _of_text(name: str, text: str) -> list:
 
 def light_of(name: str, colors, shape: tuple = (3,), linear: bool = False) -> np.ndarray:
     """The one rule for colours: what an argument gives, as linear float32 of its own, of a shape that ends with 3."""
+    linear = switch("linear", linear)
     if isinstance(colors, str):
         a = np.array(_of_text(name, colors), U1)
     else:
@@ -142,10 +143,17 @@ def entries(values: ArrayLike, low: Optional[float] = None, high: Optional[float
     """
     values = numbers("values", values, F8, ("n",), np.nan)
     low, high = (None if x is None else real(name, x) for name, x in (("low", low), ("high", high)))
+    for name, end in (("low", low), ("high", high)):
+        if end is not None and not np.isfinite(end):
+            raise InvalidArgument(f"{name}: {end}: must be finite")
     if low is not None and high is not None and low > high:
         raise InvalidArgument(f"low: {low}: above high, {high}")
     known = np.isfinite(values)
-    ends = np.quantile(values[known], (0.01, 0.99)) if known.any() else (0.0, 1.0)
+    ends = (0.0, 1.0)
+    if known.any():
+        if max(values[known].max(), -values[known].min()) > 1e300:  # their differences would be infinite
+            values, low, high = (None if x is None else x / 1024 for x in (values, low, high))
+        ends = np.quantile(values[known], (0.01, 0.99))
     low, high = ends[0] if low is None else low, ends[1] if high is None else high
     share = (np.where(known, values, low) - low) / (high - low if high > low else np.inf)
     return np.where(known, np.clip(share, 0, 1) * (STEPS - 1) + 0.5, STEPS).astype(U2)

@@ -7,7 +7,7 @@ import logging
 from typing import Optional, Tuple
 
 from ._gate import nesting
-from ._native import InvalidArgument, Plain, exception_of, ffi, lib, whole
+from ._native import InvalidArgument, Plain, exception_of, ffi, lib, switch, whole
 
 _LEVELS = (logging.ERROR, logging.WARNING, logging.INFO)
 _logger = logging.getLogger("cgt")
@@ -71,7 +71,7 @@ class Context(Plain):
             raise InvalidArgument(f"variant: {variant!r}: one of {', '.join(variants())}")
         name = ffi.NULL if variant is None else ffi.new("char[]", variant.encode(errors="replace"))
         options = ffi.new("cgt_context_options *", {"threads": whole("threads", threads), "variant": name})
-        if log:
+        if switch("log", log):
             options.log.write = _log
         result = lib.cgt_context_create(options, made)
         handle = ffi.gc(made[0], _release)  # it lives on in scenes, pictures and calls

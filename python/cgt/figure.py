@@ -3,6 +3,7 @@
 """Labelled pictures and movies of simulations: those of cgt-render, byte for byte, of what Python has."""
 from __future__ import annotations
 
+import copy
 import difflib
 import importlib.util
 import math
@@ -20,11 +21,12 @@ from . import _arrays
 from ._arrays import U1, Hold
 from ._figure_data import FigureData, frames_of, is_run, take
 from ._gate import Gate
-from ._native import Error, InvalidArgument, Plain, exception_of, instance, load_part, real, struct_values, whole
+from ._native import (Error, InvalidArgument, Plain, exception_of, instance, load_part, real, struct_values, switch,
+                      text_of_path, whole)
 from .colors import code_of, code_of_light, light_of
 from .context import Context
 from .geometry import Camera
-from .picture import encode_png
+from .picture import check_png, encode_png
 from .trajectory import Trajectory, TrajectorySlice
 
 ffi, lib = load_part("figure")
@@ -65,11 +67,13 @@ def _in_python(text: str) -> str:
 
 
 def _number_text(keyword: str, value) -> str:
-    if isinstance(value, (bool, np.bool_)):
-        raise InvalidArgument(f"{keyword}: {value!r}: must be a number")
-    if isinstance(value, (int, np.integer)):
-        return str(int(value))
-    return repr(float(value))
+    one = value[()] if isinstance(value, np.ndarray) and not value.ndim else value
+    try:
+        if isinstance(one, (bool, np.bool_, str, bytes, bytearray, np.ndarray, np.complexfloating)):
+            raise TypeError
+        return str(int(one)) if isinstance(one, (int, np.integer)) else repr(float(one))
+    except (TypeError, ValueError, OverflowError):
+        raise InvalidArgument(f"{keyword}: {value!r}: must be a number") from None
 
 
 def _fov_of(c) -> float:
@@ -82,6 +86,8 @@ def _fov_of(c) -> float:
 def _text_of(keyword: str, row, value) -> str:
     """One value as C reads it."""
     is_color = row.kind == "color" or row.name == "color"
+    if isinstance(value, np.ndarray) and not value.ndim:
+        value = value[()]
     if isinstance(value, Camera):
         c = instance(keyword, value, Camera)._struct
         if c.t_min or 0 < c.t_max < math.inf or c.mask:
@@ -136,10 +142,7 @@ def _settings_of(keyword: str, value) -> List[Tuple[str, _Texts]]:
         return [(name, [f"{key}={_text_of(keyword, colored, v)}" for key, v in value.items()])]
     many = row.repeats and isinstance(value, (list, tuple)) and not (
         value and isinstance(value[0], (int, float, np.integer, np.floating)))
-    found: List[Tuple[str, _Texts]] = [(name, [_text_of(keyword, row, v) for v in (value if many else [value])])]
-    if isinstance(value, Camera) and value.projection == "orthographic":
-        found.append(("ortho", [None]))
-    return found
+    return [(name, [_text_of(keyword, row, v) for v in (value if many else [value])])]
 
 
 class Figure(Plain):
@@ -154,7 +157,8 @@ class Figure(Plain):
         Switches are True or False, numbers and texts plain, several numbers a tuple (``size=(1280, 720)``), options
         that may be given several times a list (``show=["x > 0", "type == 1"]``), those of types and elements a
         dictionary (``type_color={"O": "tomato", 2: "#4060ff"}``). Colours are names of CSS, "#rrggbb" or three
-        numbers as of `cgt.colors`; a camera may be a `cgt.Camera`. None is what the option is by itself.
+        numbers as of `cgt.colors`; a camera may be a `cgt.Camera`, which says ortho, too, unless the same call does.
+        None is what the option is by itself.
 
     Notes
     -----
@@ -163,18 +167,22 @@ class Figure(Plain):
     more:
 
     radius : float or (n,) float
+        0: as without it, by element, else 0.5.
     columns : dict or table of (n,)
-        Numbers or words for colours and formulas. Some mean something: id, type, element (atomic numbers), velocity
-        (n, 3), normal (of vertices, (n, 3)).
+        Numbers or words for colours and formulas; what is masked or None is NaN, or no word. Some mean something: id,
+        type, element (atomic numbers), velocity (n, 3), normal (of vertices, (n, 3)).
     bonds : (m, 2) int
         Pairs, for ``bonds=True``.
     cell, pbc, corner, unwrapped
-        Edges of the box as rows, or three lengths; along which it is periodic; its corner; along which places go on
-        beyond it.
+        Edges of the box as rows, or three lengths; along which it is periodic, True, False, or three of them; its
+        corner; along which places go on beyond it, in the same way.
     number, step, time : number
         Of the frame in its run; by default frames are counted.
     angstrom : float
         In the unit of lengths, for radii by element.
+
+    Copies and pickles have the options, the mesh that stands, an assigned camera, and the shown frame, of its arrays as
+    they are then; after a survey only the first three: the copy has to make it anew.
 
     One thread at a time uses a figure: others get `InUse`. All that takes time releases Python's lock.
 
@@ -187,7 +195,7 @@ class Figure(Plain):
     """
 
     __slots__ = ("_handle", "_context", "_context_handle", "_gate", "_texts", "_notices", "_origin", "_words",
-                 "_looked", "_shown", "_again", "_pixels", "_counts")
+                 "_looked", "_shown", "_again", "_pixels", "_counts", "_mesh", "_view", "_has_lens")
     _unmade = {"_made": False, "_handle": None, "_gate": Gate("figure")}
     _handle: Any
 
@@ -200,6 +208,9 @@ class Figure(Plain):
         self._gate = Gate("figure", self._context_handle)
         self._texts: Dict[str, List[Optional[str]]] = {}
         self._notices: List[str] = []
+        self._mesh: Optional[FigureData] = None
+        self._view: Optional[Camera] = None  # what was assigned or fitted
+        self._has_lens = False  # whether ortho is of the option camera, and goes with it
         self._forget()
         self._given = {"context": context}
         self._made = True
@@ -223,6 +234,26 @@ class Figure(Plain):
 
     def _arguments(self) -> dict:
         return {**self._given, **self.options}
+
+    def _rest(self) -> dict:
+        frame, is_shown = (self._again or self._shown) if self._looked != "survey" else None, self._again is None
+        if frame is not None and frame.number is None and is_shown:
+            frame = copy.copy(frame)
+            frame.number = self._counts[1] - 1
+        return {**super()._rest(), "_state": (frame, is_shown, self._mesh, self._view, self._has_lens)}
+
+    def _set_state(self, state) -> None:
+        frame, is_shown, mesh, view, self._has_lens = state
+        if mesh is not None:
+            self._stand(mesh)
+        if view is not None:
+            self.camera = view
+        if frame is not None and is_shown:
+            self._show(frame)
+        else:
+            self._again = frame
+
+    _state = property(None, _set_state, doc="What a copy has besides its options.")
 
     def _told(self) -> dict:
         return self.options if self._made else {}
@@ -260,7 +291,13 @@ class Figure(Plain):
         After that a survey has to be made again; without one, what is shown is drawn by the new options, of its arrays
         as they are then.
         """
-        texts = dict(self._texts)
+        texts, has_lens = dict(self._texts), self._has_lens and "ortho" not in options
+        if "camera" in options and "ortho" not in options:
+            camera = options["camera"]
+            is_ortho = isinstance(camera, Camera) and instance("camera", camera, Camera).projection == "orthographic"
+            if is_ortho or has_lens or isinstance(camera, Camera):
+                options["ortho"] = is_ortho
+            has_lens = is_ortho
         for keyword, value in options.items():
             for name, values in _settings_of(keyword, value):
                 texts.pop(name, None)
@@ -268,17 +305,19 @@ class Figure(Plain):
                     texts.pop({"shadows": "no-shadows"}.get(name, "shadows"), None)
                 if values:
                     texts[name] = values
-        return self._take(texts)
+        self._take(texts)
+        self._has_lens = has_lens
+        return self
 
     def unset(self, *names: str) -> "Figure":
         """Takes back what was set of some options, of all without names, and returns the figure."""
         return self.set(**dict.fromkeys(names or self.options))
 
-    def _take(self, texts) -> "Figure":
+    def _take(self, texts) -> None:
         with self._gate.alone:
             figure, trial = self._open, self._create()
             if texts == self._texts:
-                return self
+                return
             lines = [f"{name} = {value}" if value is not None else name for name in texts for value in texts[name]]
             settings = ffi.new("char[]", os.fsencode("\n".join(lines)))
             for handle in (trial, figure):  # what is refused leaves this one as it is
@@ -286,7 +325,6 @@ class Figure(Plain):
                 self._check(lib.cgt_figure_set_lines(handle, settings), handle)
             self._texts = texts
             self._forget((self._shown or self._again) if self._looked != "survey" else None)
-            return self
 
     @property
     def options(self) -> Dict[str, Any]:
@@ -410,11 +448,14 @@ class Figure(Plain):
 
     def set_mesh(self, mesh, **more) -> "Figure":
         """Sets a mesh that stands still among the particles, such as walls; None: none. Returns the figure."""
-        data = None if mesh is None else take(mesh, **more)
+        return self._stand(None if mesh is None else take(mesh, **more))
+
+    def _stand(self, data: Optional[FigureData]) -> "Figure":
         with self._gate.alone:
             keep: list = []
             c = ffi.NULL if data is None else data.fill(ffi, 0, self._origin or data.origin or [0.0] * 3, keep, {})
             self._check(lib.cgt_figure_set_mesh(self._open, c))
+            self._mesh = data
             self._forget()
             del keep
         return self
@@ -448,12 +489,18 @@ class Figure(Plain):
             self._pixels = None
         if result:
             raise InvalidArgument("camera: eye and target are the same")
+        c.projection = lib.CGT_PROJECTION_PERSPECTIVE  # by its angle; the option ortho tells the other
+        self._view = Camera()
+        self._view._struct[0] = c[0]
 
     def fit(self) -> "Figure":
         """Moves the camera so that it shows all of the shown frame, in the same direction; returns the figure."""
         with self._gate.alone:
             self._check(lib.cgt_figure_fit(self._open))
             self._pixels = None
+            self._view = Camera()
+            lib.cgt_figure_get_camera(self._open, self._view._struct)
+            self._view._struct.projection = lib.CGT_PROJECTION_PERSPECTIVE
         return self
 
     def pick(self, x: int, y: int) -> SimpleNamespace:
@@ -475,6 +522,9 @@ class Figure(Plain):
 
     def draw(self) -> np.ndarray:
         """Draws the shown frame: (height, width, 3) uint8, a new array; with the option transparent 4 numbers."""
+        return self._draw().copy()
+
+    def _draw(self) -> np.ndarray:
         if self._again is not None:
             self._show(self._again)
         if self._open and self._shown is None:
@@ -494,14 +544,12 @@ class Figure(Plain):
 
     @property
     def pixels(self) -> np.ndarray:
-        """The picture of the shown frame, drawn once: (height, width, 3 or 4) uint8."""
-        return self.draw() if self._pixels is None else self._pixels
+        """The picture of the shown frame, drawn once: (height, width, 3 or 4) uint8, the array that `save` writes."""
+        return self._draw() if self._pixels is None else self._pixels
 
     def save(self, path, dpi: Optional[float] = None) -> None:
         """Writes the picture of the shown frame, a PNG file. dpi: pixels to an inch, as the file tells them."""
-        ending = os.path.splitext(os.fspath(path))[1]
-        if ending.lower() not in (".png", ""):
-            raise InvalidArgument(f"path: {ending}: pictures are saved as .png; movie() makes movies")
+        check_png(path, "; movie() makes movies")
         data = encode_png(self.pixels, dpi)
         with open(path, "wb") as file:
             file.write(data)
@@ -553,13 +601,14 @@ class Figure(Plain):
         """
         if not is_run(run) and not hasattr(run, "atoms"):
             raise InvalidArgument(f"run: {type(run).__name__}: must be frames one after the other")
+        survey, progress = switch("survey", survey), switch("progress", progress)
         with _Encoder(path, self.size, fps, quality) as encoder:
             if survey:
                 run = list(run) if isinstance(run, Iterator) else run
                 self._survey_run(run, more)
             for frame in _with_progress(self._frames(run), run, progress):
                 self._show(take(frame, **more))
-                encoder.write(self.draw())
+                encoder.write(self._draw())
         return self
 
     def close(self) -> None:
@@ -598,7 +647,7 @@ class _Encoder:
     _GIF = ["-filter_complex", "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1"]
 
     def __init__(self, path, size, fps, quality):
-        self.path, lost = os.path.abspath(os.fspath(path)), 100 - whole("quality", quality, 1, 100)
+        self.path, lost = os.path.abspath(text_of_path("path", path)), 100 - whole("quality", quality, 1, 100)
         ending = os.path.splitext(self.path)[1].lower()
         x264 = ["-crf", str(min(51, round(0.9 * lost))), "-c:v", "libx264", "-preset", "veryfast"]
         ways = {".gif": self._GIF, ".webm": self._COLORS + ["-crf", str(min(63, round(1.5 * lost)))] + self._VP9,
@@ -611,6 +660,7 @@ class _Encoder:
         if shutil.which("ffmpeg") is None:
             raise InvalidArgument("path: movies need the program ffmpeg, and it is not in PATH (Debian: apt-get install "
                                   "ffmpeg)")
+        self.count = 0  # of frames
         self.temporary = f"{self.path[:-len(ending)]}.{os.getpid()}{ending}"
         self.process = subprocess.Popen(
             ["ffmpeg", "-v", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", "%dx%d" % size, "-r", f"{fps:.9g}",
@@ -619,6 +669,7 @@ class _Encoder:
 
     def write(self, pixels: np.ndarray) -> None:
         """One frame."""
+        self.count += 1
         try:
             self.process.stdin.write(np.ascontiguousarray(pixels[..., :3]).data)
         except BrokenPipeError:
@@ -631,10 +682,12 @@ class _Encoder:
         if kind is not None:
             self.process.kill()
         said = self.process.communicate()[1].decode(errors="replace").strip()
-        if kind is None and self.process.returncode == 0:
+        if kind is None and self.count and self.process.returncode == 0:
             os.replace(self.temporary, self.path)
             return
         if os.path.exists(self.temporary):
             os.remove(self.temporary)
+        if kind is None and not self.count:
+            raise InvalidArgument("run: without frames")
         if kind is None:
             raise Error(f"{self.path}: ffmpeg: {said.splitlines()[0] if said else 'it failed'}")

@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 
 from . import _arrays
 from ._arrays import F2, F4, F8, I4, I8, U1, U2, U4, U8
-from ._native import InvalidArgument, Plain, enum_value, exception_of, ffi, given, instance, lib, real, three, whole
+from ._native import (InvalidArgument, Plain, enum_value, exception_of, ffi, given, instance, lib, real, several, three,
+                      whole)
 
 
 POINTS, NUMBERS = (F8, F4, F2), (U4, I4, U2, U1, U8, I8)  # what coordinates and radii, indices and types may be
@@ -60,7 +61,7 @@ class _Geometry(Plain):
     def _refer_radii(self, radius, types, count: int, what: str) -> None:
         """Refers to one radius, to one each, or to one each type."""
         if types is None and (radius.__class__ in (float, int) or _arrays.array_of("radius", radius).ndim == 0):
-            self._struct.radius = real("radius", radius)
+            self._struct.radius = self._given["radius"] = real("radius", radius)  # an array of one may change
             return
         radii = self._refer("radius", radius, POINTS, 1, "radii")
         name, each = "radius", radii
@@ -75,7 +76,14 @@ class _Geometry(Plain):
         radii, types = self._arrays.get("radius"), self._arrays.get("types")
         if radii is None:
             return np.full(count, self._struct.radius, F8)
-        return np.asarray(radii if types is None else radii[types], F8)
+        return np.asarray(radii if types is None else radii[self._places("types", len(radii))], F8)
+
+    def _places(self, name: str, count: int) -> np.ndarray:
+        """Indices or types, of which each is one of so many."""
+        places = self._arrays[name]
+        if places.size and (places.min() < 0 or places.max() >= count):
+            raise InvalidArgument(f"{name}: {places.min()} to {places.max()}, of {count}")
+        return places.astype(np.intp)
 
     def _balls(self) -> Tuple[np.ndarray, np.ndarray]:
         """Centres and radii of balls that have the geometry's convex hull, relative to its origin, in double."""
@@ -178,7 +186,12 @@ class Triangles(_Geometry):
         self._made = True
 
     def _balls(self) -> Tuple[np.ndarray, np.ndarray]:
-        corners = self._arrays["vertices"] - np.array(list(self._struct.origin))
+        corners = self._arrays["vertices"]
+        if "indices" in self._arrays:
+            is_seen = np.zeros(len(corners), bool)
+            is_seen[self._places("indices", len(corners))] = True
+            corners = corners[is_seen]
+        corners = corners - np.array(list(self._struct.origin))
         return corners, np.zeros(len(corners))
 
 
@@ -243,7 +256,7 @@ class Capsules(_Geometry):
         if ends is not None:
             first, second = vertices, ends
         elif indices is not None:
-            first, second = vertices[indices[:, 0]], vertices[indices[:, 1]]
+            first, second = (vertices[places] for places in self._places("indices", len(vertices)).T)
         else:
             first, second = vertices[0::2], vertices[1::2]
         return np.concatenate([first, second]) - np.array(list(self._struct.origin)), np.tile(self._radii(len(self)), 2)
@@ -365,11 +378,13 @@ class Camera(Plain):
         Raises
         ------
         InvalidArgument
-            There is nothing to show, or floats cannot hold the camera, which stays as it was.
+            There is nothing to show, an index or a type is out of range, or floats cannot hold the camera, which stays
+            as it was.
         """
         from .picture import lib as library
 
-        geometries = [geometries] if isinstance(geometries, _Geometry) else geometries
+        geometries = [geometries] if isinstance(geometries, _Geometry) else several(
+            "geometries", geometries, "geometries")
         parts = [(np.empty((0, 3)), np.empty(0))] + [instance("geometries", g, _Geometry)._balls() for g in geometries]
         balls = Spheres(*(np.concatenate(part) for part in zip(*parts)))
         width, height = whole("width", width), whole("height", height)

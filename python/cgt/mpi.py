@@ -21,7 +21,7 @@ from mpi4py import MPI
 from ._arrays import U4, numbers, pointer
 from ._gate import Gate
 from ._held import Held
-from ._native import InvalidArgument, Plain, exception_of, instance, load_part, whole
+from ._native import InvalidArgument, Plain, exception_of, instance, load_part, several, whole
 from .geometry import Camera
 from .picture import Look, Picture
 
@@ -127,7 +127,7 @@ class Job(Plain):
     def _parts(geometries: Sequence[Any]) -> tuple[list, list]:
         parts: list = []
         keep: list = []
-        for given in geometries:
+        for given in several("geometries", geometries, "geometries"):
             geometry, ids, look = (*given, None, None)[:3] if isinstance(given, tuple) else (given, None, None)
             held, c = Held(geometry), ffi.new("cgt_look *")
             held.check()

@@ -26,6 +26,9 @@ from ._native import (
     load_part,
     pair,
     real,
+    several,
+    switch,
+    text_of_path,
     three,
     whole,
      )
@@ -52,6 +55,13 @@ def _check(handle, result: int) -> None:
         raise exception_of(result, ffi.string(text).decode(errors="replace"))
 
 
+def check_png(path, hint: str = "") -> None:
+    """Refuses a path of another kind of file."""
+    ending = os.path.splitext(text_of_path("path", path))[1]
+    if ending.lower() not in (".png", ""):
+        raise InvalidArgument(f"path: {ending}: pictures are saved as .png{hint}")
+
+
 def encode_png(pixels: np.ndarray, dpi: Optional[float] = None) -> bytes:
     """A PNG file of (height, width, 3) or (height, width, 4) uint8, as bytes; dpi: pixels to an inch, as it tells them."""
     pixels = _arrays.array_of("pixels", pixels)
@@ -66,6 +76,7 @@ def encode_png(pixels: np.ndarray, dpi: Optional[float] = None) -> bytes:
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
     head = struct.pack(">IIBBBBB", width, height, 8, {3: 2, 4: 6}[channels], 0, 0, 0)
+    dpi = None if dpi is None else real("dpi", dpi)
     if dpi is not None and not 0 < dpi <= 1e6:
         raise InvalidArgument(f"dpi: {dpi}: must be above 0 and at most 1,000,000")
     size = b"" if dpi is None else chunk(b"pHYs", struct.pack(">IIB", *[round(dpi / 0.0254)] * 2, 1))
@@ -98,6 +109,29 @@ def find_bodies(triangles: Triangles) -> Tuple[np.ndarray, int]:
     if result:
         raise exception_of(result, ffi.string(lib.cgt_get_result_string(result)).decode())
     return body, bodies[0]
+
+
+def _own(value):
+    """What the caller cannot change."""
+    if isinstance(value, np.ndarray):
+        return np.array(value)
+    return tuple(value) if isinstance(value, list) else value
+
+
+def _lights_of(lights) -> tuple:
+    """Lights, colors and sizes, each as it was passed, checked."""
+    found = []
+    for one in several("lights", lights, "(light, color, size)"):
+        try:
+            light, color, size = one
+        except (TypeError, ValueError):
+            raise InvalidArgument(f"lights: {one!r}: must be a light, its color and its size") from None
+        if not isinstance(color, str):
+            color = tuple(real("lights: color", x) for x in three("lights: color", color))
+        found.append((instance("lights", light, Light), color, None if size is None else real("lights: size", size)))
+    if len(found) > lib.CGT_PICTURE_MAX_LIGHTS:
+        raise InvalidArgument(f"lights: {len(found)}: at most {lib.CGT_PICTURE_MAX_LIGHTS}")
+    return tuple(found)
 
 
 class Picture(Plain):
@@ -185,30 +219,37 @@ class Picture(Plain):
                  rows: Tuple[int, int] = (0, 0), linear: bool = False):
         if self._options is not None:
             raise InvalidArgument("picture: its __init__ has run")
-        self._given = {k: v for k, v in locals().items() if k != "self"}
-        self._given.update(materials=tuple(materials), lights=None if lights is None else tuple(lights))
+        arguments = {k: _own(v) for k, v in locals().items() if k != "self"}  # what copies are made of
+        materials, layers = several("materials", materials, "cgt.Material"), several("layers", layers, "pairs")
+        pairs = tuple((whole("layers", mask), real("layers", opacity)) for mask, opacity in (
+            pair("layers", layer) for layer in layers))
+        rows = tuple(whole("rows", row) for row in pair("rows", rows))
+        cue, up = (tuple(real(name, x) for x in three(name, v)) for name, v in (("cue", cue), ("up", up)))
+        lights = None if lights is None else _lights_of(lights)
+        self._given = {**arguments, "materials": materials, "layers": pairs, "rows": rows, "cue": cue, "up": up,
+                       "lights": lights}
         o = self._options = ffi.new("cgt_picture_options *")
         lib.cgt_picture_options_init(o)
         o.width, o.height = whole("width", width, 1, 65536), whole("height", height, 1, 65536)
         lighting, style, bounced, work = o.lighting, o.style, o.bounces, o.work
         o.antialias, lighting.ambient = whole("antialias", antialias), whole("ambient", ambient)
         lighting.light_samples, bounced.limit = whole("light_samples", light_samples), whole("bounces", bounces)
-        work.first_row, work.row_count = (whole("rows", row) for row in pair("rows", rows))
+        work.first_row, work.row_count = rows
         bounced.shadow_mask, bounced.glass_mask = whole("shadow_mask", shadow_mask), whole("glass_mask", glass_mask)
         lighting.sky, lighting.head = real("sky", sky), real("head", head)
         lighting.ambient_radius = real("ambient_radius", ambient_radius)
         o.shading = enum_value("CGT_SHADING_", shading, "shading", lib)
-        style.cue, style.cue_range[0], style.cue_range[1] = three("cue", cue)
-        pairs = [pair("layers", layer) for layer in layers]
+        style.cue, style.cue_range[0], style.cue_range[1] = cue
         if len(pairs) > lib.CGT_PICTURE_MAX_LAYERS:
             raise InvalidArgument(f"layers: {len(pairs)}: at most {lib.CGT_PICTURE_MAX_LAYERS}")
         style.layer_count = len(pairs)
         for c, (mask, opacity) in zip(style.layers, pairs):
-            c.mask, c.opacity = whole("layers", mask), real("layers", opacity)
+            c.mask, c.opacity = mask, opacity
         style.outline, style.outline_color = real("outline", outline), light_of("outline_color", outline_color).tolist()
-        style.background, style.transparent = light_of("background", background).tolist(), bool(transparent)
-        bounced.up = three("up", up)
-        values = [instance("materials", m, Material)._values() for m in self._given["materials"]]
+        style.background = light_of("background", background).tolist()
+        style.transparent, linear = switch("transparent", transparent), switch("linear", linear)
+        bounced.up = up
+        values = [instance("materials", m, Material)._values() for m in materials]
         self._materials = ffi.new("cgt_material[]", values)
         bounced.materials, bounced.material_count = self._materials, len(values)
         if lights is not None:
@@ -221,19 +262,11 @@ class Picture(Plain):
         self._made = True
 
     def _set_lights(self, lights) -> None:
-        o, lights = self._options.lighting, list(lights)
-        if len(lights) > lib.CGT_PICTURE_MAX_LIGHTS:
-            raise InvalidArgument(f"lights: {len(lights)}: at most {lib.CGT_PICTURE_MAX_LIGHTS}")
+        o = self._options.lighting
         o.light_count = len(lights)
-        for c, given in zip(o.lights, lights):
-            try:
-                light, color, size = given
-            except (TypeError, ValueError):
-                raise InvalidArgument(f"lights: {given!r}: must be a light, its color and its size") from None
-            c.light = instance("lights", light, Light)._values()
-            c.color, c.shadows = (light_of("lights: color", color).tolist() if isinstance(color, str) else
-                       three("lights: color", color)), size is not None
-            c.size = real("lights: size", size or 0)
+        for c, (light, color, size) in zip(o.lights, lights):
+            c.light, c.shadows, c.size = light._values(), size is not None, size or 0
+            c.color = light_of("lights: color", color).tolist() if isinstance(color, str) else color
 
     @property
     def _shape(self) -> tuple:
@@ -391,8 +424,7 @@ class Picture(Plain):
 
     def save(self, path, dpi: Optional[float] = None) -> None:
         """Writes a PNG file. dpi: pixels to an inch, as the file tells them, for programs that print or set it."""
-        ending = os.path.splitext(os.fspath(path))[1]
-        if ending.lower() not in (".png", ""):
-            raise InvalidArgument(f"path: {ending}: pictures are saved as .png")
+        check_png(path)
+        data = encode_png(self.pixels, dpi)
         with open(path, "wb") as file:
-            file.write(encode_png(self.pixels, dpi))
+            file.write(data)

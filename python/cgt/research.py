@@ -16,7 +16,7 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Sequence
 
-from ._native import Plain, enum_value, ffi, lib, struct_values, three_whole, whole
+from ._native import Plain, enum_value, ffi, instance, lib, struct_values, three_whole, whole
 
 
 class SceneOptions(Plain):
@@ -84,7 +84,10 @@ class TraceOptions(Plain):
 
 def scene_statistics(scene) -> SimpleNamespace:
     """What `Scene.statistics` does not tell of the last commit (cgt_research_scene_statistics)."""
+    from .scene import Scene
+
     s = ffi.new("cgt_research_scene_statistics *")
+    instance("scene", scene, Scene)
     with scene._gate.shared:
         scene._check(lib.cgt_research_get_scene_statistics(scene.handle, s))
     return SimpleNamespace(**struct_values(s[0]))

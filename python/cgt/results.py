@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from types import MappingProxyType, SimpleNamespace
-from typing import Any, KeysView, Mapping, Tuple
+from typing import Any, Iterator, KeysView, Mapping, Tuple
 
 import numpy as np
 
@@ -58,6 +58,9 @@ class Fields(Plain):
     def __getitem__(self, name: str) -> np.ndarray:
         return self._arrays[name]
 
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._arrays)
+
     def keys(self) -> KeysView[str]:
         """The names of the fields."""
         return self._arrays.keys()
@@ -105,7 +108,10 @@ class Frame(Hits):
 
     def __init__(self, arrays: Mapping[str, np.ndarray], camera: Any, width: int, height: int,
                  rows: Tuple[int, int] = (0, 0), statistics: Any = None, *, outputs: Any = None):
-        outputs = outputs or Outputs((height, width), tuple(arrays), FRAME_FIELDS, arrays)
+        if outputs is None:
+            if not all(a.flags.writeable for a in arrays.values()):  # of a pickle that others share
+                arrays = {name: np.array(a) for name, a in arrays.items()}
+            outputs = Outputs((height, width), tuple(arrays), FRAME_FIELDS, arrays)
         self._arrays, self.statistics = outputs.arrays, statistics
         self.camera, self._outputs = camera, outputs  # outputs: what struct points to
         numbers, vectors = outputs.strides(2)

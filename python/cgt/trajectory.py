@@ -15,7 +15,7 @@ from typing import Any, Iterable, Iterator, Optional, Sequence, Union, overload
 import numpy as np
 
 from ._gate import Gate
-from ._native import Error, InvalidArgument, Plain, load_part, real, struct_values, three, whole
+from ._native import Error, InvalidArgument, Plain, load_part, real, several, struct_values, switch, three, whole
 from .geometry import Spheres, Triangles
 
 ffi, lib = load_part("trajectory")
@@ -170,22 +170,24 @@ class Trajectory(Plain):
 
     ``run[k]`` skips what lies before, and goes back where a file can; the frame after the last one read costs no more
     than `read`. A slice reads nothing until it is used. Loops begin at the first frame; that over a pipe goes on where
-    it is. One thread at a time uses it: others get `InUse`. Reading releases Python's lock. What is doubtful about a
-    file comes as a warning of Python's.
+    it is. After an error frames before it can be read as ever, and what failed is tried again. One thread at a time
+    uses it: others get `InUse`. Reading releases Python's lock. What is doubtful about a file comes as a warning of
+    Python's.
     """
 
-    __slots__ = ("_handle", "_gate", "_keep", "_wanted", "_next", "_count")
+    __slots__ = ("_handle", "_gate", "_keep", "_wanted", "_next", "_count", "_failed")
     _unmade = {"_made": False, "_handle": None, "_gate": Gate("trajectory")}
 
     def __init__(self, paths, columns: Sequence[str], options: dict):
         if self._handle is not None:
             raise InvalidArgument("trajectory: its __init__ has run")
-        columns = (columns,) if isinstance(columns, str) else columns
-        if not isinstance(columns, Iterable) or not all(isinstance(name, str) for name in columns):
+        paths, columns = several("path", paths, "paths"), several("columns", (
+            columns,) if isinstance(columns, str) else columns, "names")
+        if not all(isinstance(name, str) for name in columns):
             raise InvalidArgument(f"columns: {columns!r}: must be names")
         if not paths:
             raise InvalidArgument("path: an empty sequence")
-        self._given = {"paths": list(paths), "columns": tuple(columns), "options": dict(options)}
+        self._given = {"paths": paths, "columns": columns, "options": dict(options)}
         self._keep = [_c_path("path", p) for p in paths]
         c = ffi.new("cgt_trajectory_options *")
         lib.cgt_trajectory_options_init(c)
@@ -198,9 +200,11 @@ class Trajectory(Plain):
         result = lib.cgt_trajectory_open_series(ffi.new("const char *[]", self._keep[:len(paths)]), len(paths), c, made)
         handle = ffi.gc(made[0], lib.cgt_trajectory_close)
         _check(handle, result)
-        names = [_c_path("columns", name) for name in self._given["columns"]]
+        names = [_c_path("columns", name) for name in columns]
         _check(handle, lib.cgt_trajectory_want_columns(handle, ffi.new("const char *[]", names), len(names)))
-        self._next, self._count, self._wanted = 0, None, set(self._given["columns"])
+        self._next, self._wanted = 0, set(columns)
+        self._count: Optional[int] = None
+        self._failed = False  # C is behind an error, not before the frame _next
         self._gate, self._handle, self._made = Gate("trajectory"), handle, True
 
     def __repr__(self) -> str:
@@ -213,7 +217,11 @@ class Trajectory(Plain):
         return self._handle
 
     def _check(self, result: int) -> bool:
-        return _check(self._open, result)
+        try:
+            return _check(self._open, result)
+        except ReadError:
+            self._failed = True
+            raise
 
     def _take_warnings(self) -> list:
         texts = []
@@ -227,24 +235,33 @@ class Trajectory(Plain):
             warnings.warn(text, stacklevel=4)
 
     def _go_to(self, number: int) -> bool:
-        """Within the gate: makes a frame the next one; false where there are not so many."""
-        if number < self._next:
-            self._check(lib.cgt_trajectory_rewind(self._open))
-            self._next = 0
+        """Within the gate: makes a frame the next one; false where there are not so many.
+
+        After an error it goes there anew: the frames before are good, and the file may be whole by now.
+        """
+        if number < self._next or (self._failed and lib.cgt_trajectory_can_rewind(self._open)):
+            self._rewind()
         while self._next < number:
             if not self._check(lib.cgt_trajectory_skip(self._open)):
                 return False
             self._next += 1
         return True
 
+    def _rewind(self) -> None:
+        self._check(lib.cgt_trajectory_rewind(self._open))
+        self._next, self._failed = 0, False
+
     def _frame(self, number: Optional[int] = None) -> Optional[TrajectoryFrame]:
         """A frame by its number, or the next one; None behind the last."""
         frame, made = ffi.new("cgt_trajectory_frame *"), None
         with self._gate.alone:
             handle = self._open
-            if (number is None or self._go_to(number)) and self._check(lib.cgt_trajectory_read(handle, frame)):
+            if self._go_to(self._next if number is None else number) and self._check(
+                    lib.cgt_trajectory_read(handle, frame)):
                 self._next += 1
                 made = TrajectoryFrame(frame)
+                if self._count is not None and self._next > self._count:
+                    self._count = None  # the file has grown
             texts = self._take_warnings()
         self._warn(texts)
         if made is not None and self._wanted:
@@ -271,12 +288,17 @@ class Trajectory(Plain):
             raise TypeError("trajectory: how many frames a pipe or a run that goes on has is not known")
         if self._count is None:
             with self._gate.alone:
-                number, count = self._next, ffi.new("uint64_t *")
-                self._next = 0
-                self._check(lib.cgt_trajectory_count_frames(self._open, count))
+                number = self._next
+                self._count = self._count_all()
                 self._go_to(number)
-            self._count = count[0]
         return self._count
+
+    def _count_all(self) -> int:
+        """Within the gate: counts the frames, and goes back to the first; an error leaves the next one the next."""
+        count = ffi.new("uint64_t *")
+        self._check(lib.cgt_trajectory_count_frames(self._open, count))
+        self._next, self._failed = 0, False
+        return count[0]
 
     def __bool__(self) -> bool:
         return True
@@ -304,16 +326,13 @@ class Trajectory(Plain):
     def rewind(self) -> None:
         """Makes the first frame the next one; a pipe cannot go back."""
         with self._gate.alone:
-            self._check(lib.cgt_trajectory_rewind(self._open))
-            self._next = 0
+            self._rewind()
 
     def count_frames(self) -> int:
-        """Counts the frames, and goes back to the first."""
-        count = ffi.new("uint64_t *")
+        """Counts the frames that there are by now, and goes back to the first; `len` counts them once."""
         with self._gate.alone:
-            self._check(lib.cgt_trajectory_count_frames(self._open, count))
-            self._next = 0
-        return count[0]
+            self._count = self._count_all()
+            return self._count
 
     @property
     def progress(self) -> float:
@@ -344,8 +363,7 @@ class Trajectory(Plain):
             self._check(lib.cgt_trajectory_want_columns(self._open, ffi.new("const char *[]", names), len(names)))
             if origin is not None:
                 lib.cgt_trajectory_set_origin(self._open, origin)
-            self._check(lib.cgt_trajectory_rewind(self._open))
-            self._next = 0
+            self._rewind()
 
     def close(self) -> None:
         """Closes the file; `InUse` if a call is using it."""
@@ -377,8 +395,8 @@ class TrajectorySlice(Sequence):
 
 
 def sort_series(paths) -> list:
-    """Paths in the order that a run has them, numbers by their values: dump.9.gz before dump.10.gz."""
-    texts = [_c_path("paths", p) for p in paths]
+    """A sequence of paths in the order that a run has them, numbers by their values: dump.9.gz before dump.10.gz."""
+    texts = [_c_path("paths", p) for p in several("paths", paths, "paths")]
     array = ffi.new("const char *[]", texts)
     lib.cgt_trajectory_sort_series(array, len(texts))
     return [os.fsdecode(ffi.string(text)) for text in array]
@@ -446,17 +464,19 @@ def read(path, *, columns: Union[str, Sequence[str]] = (), format: Optional[str]
     single = isinstance(path, (str, bytes, os.PathLike))
     if not single and not isinstance(path, Iterable):
         raise InvalidArgument(f"path: {path!r}: must be a path, or a sequence of them")
-    paths = [path] if single else list(path)
+    paths = (path,) if single else several("path", path, "paths")
     if not paths:
         raise InvalidArgument("path: an empty sequence")
-    options = {"radius": real("radius", radius), "wrapped": int(bool(wrapped)), "follow": real("follow", follow),
-               "fps": real("fps", fps), "threads": whole("threads", threads, 0, 1024), "no_limit": int(bool(no_limit)),
-               "keep": int(bool(keep)), "all_bonds": int(bool(all_bonds)), "leave_out_sites": int(bool(leave_out_sites))}
+    options = {"radius": real("radius", radius), "follow": real("follow", follow), "fps": real("fps", fps),
+               "threads": whole("threads", threads, 0, 1024)}
+    for name, flag in (("wrapped", wrapped), ("no_limit", no_limit), ("keep", keep), ("all_bonds", all_bonds),
+                       ("leave_out_sites", leave_out_sites)):
+        options[name] = int(switch(name, flag))
     for name, value in (("format", format), ("topology", topology), ("clip", clip)):
         if value is not None:
             if not isinstance(value, (str, bytes, os.PathLike)):
                 raise InvalidArgument(f"{name}: {value!r}: must be text")
             options[name] = os.fspath(value) if isinstance(value, os.PathLike) else value
     if origin is not None:
-        options.update(has_origin=1, origin=three("origin", origin))
+        options.update(has_origin=1, origin=tuple(three("origin", origin)))
     return Trajectory(paths, columns, options)

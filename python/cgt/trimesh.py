@@ -15,8 +15,8 @@ from typing import Optional, Tuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._arrays import F4, F8, I8, U4, numbers
-from ._native import InvalidArgument, whole
+from ._arrays import F4, F8, I8, U4, check_shape, numbers
+from ._native import InvalidArgument, switch, whole
 from .geometry import Triangles
 from .results import INVALID_ID
 from .context import Context
@@ -27,6 +27,14 @@ _BEFORE = 2.0 ** -16  # of a mesh's size: how far behind their origins rays begi
 
 def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _rows(name: str, a: ArrayLike, dtype: np.dtype) -> np.ndarray:
+    """Threes of numbers; where there are none, of whatever shape."""
+    found = numbers(name, np.asarray(a) if hasattr(a, "__array__") else a, dtype)
+    if found.size:
+        check_shape(name, found, ("n", 3))
+    return found.reshape(-1, 3)
 
 
 class _Moved:
@@ -103,8 +111,8 @@ class RayMeshIntersector:
 
     def update(self) -> None:
         """Reads the mesh now."""
-        vertices = np.ascontiguousarray(numbers("mesh.vertices", self.mesh.vertices, F8)).reshape(-1, 3)
-        faces = numbers("mesh.faces", np.asarray(self.mesh.faces), I8).reshape(-1, 3)
+        vertices = np.ascontiguousarray(_rows("mesh.vertices", self.mesh.vertices, F8))
+        faces = _rows("mesh.faces", self.mesh.faces, I8)
         if len(faces) and (faces.min() < 0 or faces.max() >= len(vertices)):
             raise InvalidArgument(f"mesh.faces: {faces.min()} to {faces.max()}, of {len(vertices)} vertices")
         finite = vertices[np.isfinite(vertices).all(axis=1)]
@@ -197,6 +205,8 @@ class RayMeshIntersector:
         locations : (m, 3) float64
             With `return_locations`: origin + t direction, in double.
         """
+        multiple_hits = switch("multiple_hits", multiple_hits)
+        return_locations = switch("return_locations", return_locations)
         self._ready()
         rays = self._rays(ray_origins, ray_directions)
         max_hits = None if max_hits is None else whole("max_hits", max_hits)

@@ -66,7 +66,7 @@ def junk_for_rays():
 def junk_for_frames():
     scene = scene_of(cgt.Spheres(*ball()))
     frame = scene.trace_camera(CAMERA, 8, 6, FIELDS)
-    sweep(scene.trace_camera, CAMERA, 8, 6, ("t",))
+    sweep(scene.trace_camera, CAMERA, 8, 6, ("t",), kinds=(cgt.Error, TypeError))  # what a visitor raises is passed on
     sweep(scene.occluded_frame, frame, [cgt.Light((1, 2, 3))])
     sweep(scene.ambient_occlusion, frame, 2)
     sweep(cgt.camera_rays, CAMERA, 8, 6)
@@ -84,6 +84,12 @@ def junk_for_figures():
         sweep(lambda values, name=name: cgt.Figure(size=(8, 6)).show(x, columns={name: values}).draw(), np.ones(9))
     sweep(figure.set_mesh, (vertices, corners))
     sweep(cgt.show, x, r, "red", size=(8, 6), bonds=True, title="a")
+    sweep(figure.pick, 1, 1)
+    sweep(lambda value: figure.set(zoom=value), 2.0)
+    sweep(lambda value: setattr(figure, "camera", value), CAMERA)
+    with tempfile.TemporaryDirectory() as folder:
+        for picture in (figure, cgt.Picture(8, 6)):
+            sweep(lambda dpi, p=picture: p.save(os.path.join(folder, "a.png"), dpi), 300)
     sweep(figure.set, color="red", size=(8, 6), camera=CAMERA, show=["x > 0"], range=(0, 1), type_color={1: "red"})
     figure.set(**{**figure.options, "size": (8, 6)}).show(x).draw()
 
@@ -104,9 +110,11 @@ def junk_for_pictures():
             setattr(look, name, value)
             picture.draw(scene, CAMERA, {1: look})
 
-        sweep(draw, 0)
-    for call in (cgt.colors.palette, cgt.colors.entries, cgt.colors.by_type, cgt.colors.by_element):
+        sweep(draw, 0, kinds=AttributeError)
+    for call in (cgt.colors.palette, cgt.colors.by_type, cgt.colors.by_element):
         sweep(call, 0)
+    for call in (cgt.colors.entries, cgt.colors.by_value):
+        sweep(call, [0.0], low=0.0, high=1.0)
 
 
 @case()
@@ -116,6 +124,6 @@ def junk_for_files():
         with open(path, "w", encoding="utf-8") as file:
             file.write("1\n\nO 0 0 0\n")
         sweep(cgt.read, path)
-        sweep(cgt.Trajectory, [path], (), {})
+        sweep(cgt.Trajectory, [path], (), {}, kinds=Exception)  # its options are those of cgt.read, which checks them
         sweep(cgt.sort_series, [path])
-        sweep(cgt.TrajectoryFrame, None)
+        sweep(cgt.TrajectoryFrame, None, kinds=AttributeError)

@@ -12,6 +12,7 @@ import shutil
 import subprocess
 import sys
 import types
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ import pytest
 try:
     import cgt.figure
     from cgt import _show
+    from cgt._figure_data import FigureData, is_run
 except ImportError as error:
     pytest.skip(str(error), allow_module_level=True)
 
@@ -71,6 +73,126 @@ floor = 228b22
     assert cgt.Figure(material={"all": "glass"}, bounces=3).settings == "material = all=glass\nbounces = 3\n"
     known = cgt.figure.options()
     assert known["text_size"].kind == "number" and known["style"].words == ("soft", "paper", "plain")
+
+
+def test_a_camera_takes_its_lens_along():
+    wide, flat = cgt.Camera((0, 0, 9), fov=40), cgt.Camera((0, 0, 9), projection="orthographic", height=3)
+    wanted = pixels(X, {"camera": wide})
+    for next_one in (wide, "0,0,9,0,0,0,0,1,0,40", (0, 0, 9, 0, 0, 0, 0, 1, 0, 40)):
+        figure = cgt.Figure(**SIZE, camera=flat)
+        assert figure.options["ortho"] is True and "ortho" not in figure.set(camera=next_one).options
+        assert same(figure.show(X).pixels, wanted)
+    assert "ortho" not in cgt.Figure(camera=flat).unset("camera").options
+    assert "ortho" not in cgt.Figure(camera=flat).set(camera=None).options
+    assert "ortho" not in copy.copy(cgt.Figure(camera=flat)).unset("camera").options
+    assert "ortho" not in cgt.Figure(ortho=True).set(camera=wide).options
+    # the same call says ortho, or another one did so for itself
+    for figure in (cgt.Figure(camera=wide, ortho=True), cgt.Figure(ortho=True, camera=wide),
+                   cgt.Figure(ortho=True).set(title="a", camera=None),
+                   cgt.Figure(ortho=True).set(camera="0,0,9,0,0,0,0,1,0,40"),
+                   cgt.Figure(camera=flat).set(ortho=True).unset("camera")):
+        assert figure.options["ortho"] is True
+    assert "ortho" not in cgt.Figure(camera=flat, ortho=False).options
+    figure = cgt.Figure(camera=flat)
+    with pytest.raises(cgt.InvalidArgument):
+        figure.set(camera=wide, antialias=3)
+    assert figure.options["ortho"] is True and "ortho" not in figure.unset("camera").options
+
+
+def test_copies_show_the_same():
+    ways = (copy.copy, copy.deepcopy, lambda f: pickle.loads(pickle.dumps(f)))
+    heat, names = {"heat": [1.0, 2, 5]}, {"name": ["A", "B", "A"]}
+    figure = cgt.Figure(**SIZE, style="plain", color="heat", title="frame %n").show(X, radius=0.5, columns=heat)
+    figure.show(2 * X, radius=0.4, columns={**heat, **names}, time=2.0)
+    first = figure.camera
+    turned = figure.camera
+    turned.orbit(40)
+    for view in (None, turned, cgt.Camera((0, 0, 20))):
+        if view is not None:
+            figure.camera = view
+        for other in [way(figure) for way in ways]:
+            assert np.array_equal(other.camera.eye, figure.camera.eye) or view is None
+            assert view is None or same(other.pixels, figure.pixels)
+            assert other.pick(30, 20) == figure.pick(30, 20) or view is None
+            other.camera = first
+            assert not np.array_equal(figure.camera.eye, first.eye) or view is None  # it is one of its own
+    one = cgt.Figure(**SIZE, style="plain").show(X, radius=0.5)
+    assert all(same(way(one).pixels, one.pixels) for way in ways)
+    one.set(color="red")  # asks for it anew when it is drawn
+    assert all(same(way(one).pixels, one.pixels) for way in ways)
+    one.camera = first
+    one.fit()
+    assert all(same(way(one).pixels, one.pixels) for way in ways)
+    flat = cgt.Figure(**SIZE, style="plain", ortho=True).show(X, radius=0.5)
+    flat.camera = cgt.Camera((0, 0, 9), projection="orthographic", height=3)
+    assert all(same(way(flat).pixels, flat.pixels) and way(flat).camera.height == flat.camera.height for way in ways)
+    square = ([[0, 0, -1], [9, 0, -1], [9, 9, -1], [0, 9, -1.0]], [[0, 1, 2], [0, 2, 3]])
+    walled = cgt.Figure(**SIZE, style="plain").set_mesh(square).show(X, radius=0.5)
+    assert not same(walled.pixels, pixels(X, {"style": "plain"}, radius=0.5))
+    assert all(same(way(walled).pixels, walled.pixels) for way in ways)
+    for way in ways:  # a survey is made anew
+        with pytest.raises(cgt.InvalidArgument, match="nothing is shown"):
+            way(cgt.Figure(**SIZE).survey([X, 2 * X]).show(X)).draw()
+    with pytest.raises(cgt.InvalidArgument, match="nothing is shown"):
+        copy.copy(cgt.Figure()).draw()
+
+
+def test_columns_of_objects_are_words_or_numbers():
+    options = {"style": "plain", "color": "q", "show": "q > 1"}
+    plain = pixels(X, options, radius=0.5, columns={"q": [3.0, 1, 2]})
+    for values in (np.array([3.0, 1, 2], object), np.array([3, 1, 2], object), [Fraction(3), True, np.float32(2)]):
+        assert same(pixels(X, options, radius=0.5, columns={"q": values}), plain)
+    for values in ([3, None, 2.0], np.array([3, np.nan, 2], object), np.ma.array([3, 7, 2], mask=[0, 1, 0]),
+                   np.ma.array([3, 7, 2], object, mask=[0, 1, 0]), [np.float64(3), None, Fraction(2)]):
+        found = FigureData(X, columns={"q": values}).columns["q"]
+        assert found.dtype == "f8" and found[0] == 3 and np.isnan(found[1]) and found[2] == 2
+    words = ["A", "", "B"]
+    for values in (["A", None, "B"], np.array(["A", np.nan, "B"], object), np.array([b"A", None, b"B"], object),
+                   np.ma.array(["A", "x", "B"], mask=[0, 1, 0]), np.ma.array([b"A", b"x", b"B"], mask=[0, 1, 0]),
+                   np.ma.array(["A", "x", "B"], object, mask=[0, 1, 0])):
+        assert FigureData(X, columns={"q": values}).columns["q"].texts.tolist() == words
+    assert FigureData(X, columns={"q": np.array([b"A", b"\xff", b"B"])}).columns["q"].texts[1] == "\ufffd"
+    assert FigureData(X, columns={"id": np.array([7, 8, 9], object)}).columns["id"].tolist() == [7, 8, 9]
+    for values in (["A", 1, 2.0], np.array([1, "2", 3], object), [object()] * 3, [1, 2j, 3], [[1], [2], [3]],
+                   np.array([1, 10**30, 2], object), np.array([1j, 2, 3], object), np.zeros(3, "M8[s]"),
+                   np.ma.array(np.zeros(3, "M8[s]"), mask=[0, 1, 0]), np.ma.array([1j, 2, 3], mask=[0, 1, 0])):
+        with pytest.raises(cgt.InvalidArgument, match="^columns: q: "):
+            FigureData(X, columns={"q": values})
+
+
+def test_what_is_refused_is_named():
+    figure, box = cgt.Figure(**SIZE, style="plain"), {"cell": np.eye(3)}
+    for more, name in (
+        ({**box, "pbc": (1, 1)}, "pbc"), ({**box, "pbc": "yes"}, "pbc"), ({**box, "pbc": (1.5, 1, 1)}, "pbc"),
+        ({**box, "unwrapped": (1, 1)}, "unwrapped"), ({**box, "corner": 1}, "corner"), ({"time": "1 ps"}, "time"),
+        ({"time": [1, 2]}, "time"), ({"number": 2**63}, "number"), ({"step": 2**63}, "step"),
+        ({"columns": [1, 2, 3]}, "columns"), ({"columns": zip("a", [[1, 2, 3]])}, "columns"),
+        ({"radius": -1}, "radius"), ({"radius": np.nan}, "radius"), ({"radius": np.inf}, "radius"),
+        ({"angstrom": -1}, "angstrom"), ({"angstrom": np.nan}, "angstrom"), ({"cell": "a"}, "cell"),
+        ({"bonds": "a"}, "bonds"),
+    ):
+        with pytest.raises(cgt.InvalidArgument, match=f"^{name}: "):
+            figure.show(X, **more)
+        with pytest.raises(cgt.InvalidArgument, match=f"^{name}: "):
+            figure.survey([X, X], **more)
+    for pbc, wanted in ((256, [1, 1, 1]), (True, [1, 1, 1]), ((0, 1, -1), [0, 1, -1]),
+                        (np.array([0, 2, 0]), [0, 1, 0])):
+        data = FigureData(X, **box, pbc=pbc, unwrapped=pbc)
+        assert data.periodic.tolist() == wanted and data.unwrapped.tolist() == [w != 0 for w in wanted]
+    for options, name in (({"range": (None, 5)}, "range"), ({"slice": np.eye(2, 4)}, "slice"), ({"zoom": 1j}, "zoom"),
+                          ({"zoom": [None]}, "zoom"), ({"zoom": [b"2"]}, "zoom"), ({"zoom": np.array(True)}, "zoom")):
+        with pytest.raises(cgt.InvalidArgument, match=f"^{name}: "):
+            figure.set(**options)
+    assert figure.set(zoom=np.array(2.0)).options["zoom"] == "2.0"
+    figure.set(zoom=None).show(X)
+    for call, name in ((lambda: figure.save("a.png", dpi="300"), "dpi"), (lambda: figure.save(5), "path"),
+                       (lambda: figure.save("a\0.png"), "path"), (lambda: figure.movie(5, [X]), "path"),
+                       (lambda: cgt.show(X, colors="red", columns=[1]), "columns"),
+                       (lambda: cgt.show(X, colors=[1]), "columns: colors"),
+                       (lambda: cgt.show(X, colors=np.array(5)), "colors"),
+                       (lambda: cgt.show(X, colors=X / 4, columns=[1]), "columns")):
+        with pytest.raises(cgt.InvalidArgument, match=f"^{name}"):
+            call()
 
 
 def test_what_is_refused_changes_nothing():
@@ -247,6 +369,11 @@ def test_movies(tmp_path, monkeypatch):
             width = 61 if name == "a.gif" else 62
             last = np.frombuffer(raw, "u1").reshape(4, 40, width, 3)[-1, :, :61]
             assert abs(last.astype(int) - figure.pixels).mean() < 6
+        before = (tmp_path / "a.gif").read_bytes()
+        for nothing in (iter([]), (x for x in ())):
+            with pytest.raises(cgt.InvalidArgument, match="^run: without frames"):
+                figure.movie(tmp_path / "a.gif", nothing, survey=False, progress=False)
+        assert (tmp_path / "a.gif").read_bytes() == before
         with pytest.raises(cgt.InvalidArgument, match="positions: shape"):
             figure.movie(tmp_path / "b.mp4", [*run, X[:, :2]], survey=False, progress=False)
         assert sorted(os.listdir(tmp_path)) == ["a.gif", "a.mp4"]
@@ -370,6 +497,38 @@ def test_sheets_have_their_bonds_through_two_boundaries():
     mapped = cgt.show(x, 0.3, [1.0, 2.0], map="magma", low=1, high=2, size=(64, 48), ambient=0, window=False).pixels
     assert np.array_equal(mapped, cgt.show(x, 0.3, [1.0, 2.0], colormap="magma", range=(1, 2), size=(64, 48), ambient=0,
                                            window=False).pixels)
+
+
+def test_runs_of_meshes():
+    cube = np.array([[x, y, z] for x in (-1.0, 1) for y in (-1, 1) for z in (-1, 1)])
+    corners = np.array([[0, 1, 3], [0, 3, 2], [4, 7, 5], [4, 6, 7], [0, 5, 1], [0, 4, 5], [2, 3, 7], [2, 7, 6]])
+    run = [(cube, corners[:7]), (2 * cube, corners[:7])]
+    wanted = cgt.Figure(**SIZE).survey(iter(run)).show(run[0]).pixels
+    for meshes in (run, [(a.tolist(), b.tolist()) for a, b in run], (m for m in run)):
+        assert same(cgt.Figure(**SIZE).survey(meshes).show(run[0]).pixels, wanted)
+    assert same(pixels((cube.tolist(), corners[:7].tolist())), pixels(run[0]))
+    assert is_run([[[0, 0, 0]], [[1, 1, 1]]]) and not is_run([[0, 0, 0], [1, 1, 1]]) and not is_run([])
+
+
+def test_a_drawn_picture_is_the_callers():
+    figure = cgt.Figure(**SIZE).show(X, radius=0.5)
+    first = figure.draw()
+    kept = first.copy()
+    first[:] = 0
+    assert same(figure.pixels, kept) and same(figure.draw(), kept)
+
+
+def test_colours_of_a_tuple_are_those_of_a_list():
+    frame, rows = {"window": False, "radii": 0.5, **SIZE}, [(1.0, 0, 0), (0, 1, 0), (0, 0, 1)]
+    for colors in (["red", "blue", "gold"], rows, [1.0, 2, 3, 4]):
+        data = np.vstack([X, X[:1] + 1])[:len(colors)]
+        assert same(cgt.show(data, colors=colors, **frame).pixels, cgt.show(data, colors=tuple(colors), **frame).pixels)
+    assert same(cgt.show(X, colors=(1, 0, 0), **frame).pixels, cgt.show(X, colors="red", **frame).pixels)
+    assert "color" not in cgt.show(X, colors=("red",) * 3, **frame).options
+    bonded = {"data": X, "bonds": PAIRS}
+    assert same(cgt.show(X, bonds=None, **frame).pixels, cgt.show(X, **frame).pixels)
+    assert "bonds" not in cgt.show(X, bonds=None, **frame).options
+    assert "bonds" not in cgt.show(X, bonds=np.False_, **frame).options and cgt.show(**bonded, **frame).options["bonds"]
 
 
 def test_three_numbers_are_a_colour_for_all():

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Pictures; left out where libcgt was installed without them."""
+import copy
+import pickle
 import struct
 import zlib
 
@@ -281,6 +283,37 @@ def test_palettes_ids_and_lines(scene):
             make()
 
 
+def test_what_is_looped_over_once_means_the_same(scene):
+    light = cgt.Light((5, 0, 5))
+    given = {"lights": [(light, (1, 0, 0), 0.0)], "layers": [(2, 0.5)], "materials": [cgt.Material("mirror")],
+             "cue": (0.5, 1, 9), "up": (0, 0, 1), "rows": (3, 20)}
+    for name, values in given.items():
+        wanted = cgt.Picture(40, 30, **{name: values})
+        for once in (iter(values), (v for v in values), map(lambda v: v, values)):
+            picture = cgt.Picture(40, 30, **{name: once})
+            for other in (picture, copy.copy(picture), copy.deepcopy(picture)):
+                assert repr(other._given[name]) == repr(wanted._given[name])
+                assert np.array_equal(other.draw(scene, CAMERA).pixels, wanted.draw(scene, CAMERA).pixels), name
+    assert not np.array_equal(cgt.Picture(40, 30).draw(scene, CAMERA).pixels,
+                              cgt.Picture(40, 30, lights=iter(given["lights"])).draw(scene, CAMERA).pixels)
+    for name, value in (("lights", light), ("lights", 5), ("layers", 5), ("materials", cgt.Material()),
+                        ("layers", "ab"), ("lights", [light]), ("materials", None), ("rows", 3), ("layers", [5])):
+        with pytest.raises(cgt.InvalidArgument, match=f"^{name}: "):
+            cgt.Picture(40, 30, **{name: value})
+
+
+def test_copies_have_what_the_picture_was_made_of(scene):
+    paper, line, color, layers = np.array([1.0, 0, 0]), [0.0, 1, 0], np.array([1.0, 0, 0]), [(1, 0.5)]
+    rows, lights = [0, 20], [[cgt.Light((0, 0, 9)), color, 0.0]]
+    picture = cgt.Picture(40, 30, background=paper, outline_color=line, outline=2.0, lights=lights, layers=layers,
+                          rows=rows)
+    expected = picture.draw(scene, CAMERA).pixels
+    paper[:], line[:], color[:], rows[:], lights[0][2] = 0, [1, 1, 0], 0.5, [0, 10], None
+    layers.clear()
+    for other in (copy.copy(picture), copy.deepcopy(picture), pickle.loads(pickle.dumps(picture))):
+        assert np.array_equal(other.draw(scene, CAMERA).pixels, expected)
+
+
 def test_lights_without_shadows(scene):
     light = cgt.Light((-1, 0, 1), "directional")
     dark, lit = (cgt.Picture(80, 60, lights=[(light, (0.9, 0.9, 0.9), size)]).draw(scene, CAMERA, LOOKS).pixels
@@ -301,6 +334,16 @@ def test_colours_of_values_types_and_elements():
     assert entries[0] == entries[10] == 0 and entries[10] < entries[30] and entries[500] in (511, 512)
     assert entries.dtype == np.uint16 and cgt.colors.entries([3.0, 3.0]).tolist() == [0, 0]
     assert cgt.colors.entries([np.nan]).tolist() == [1024] and cgt.colors.entries([]).shape == (0,)
+    for low, high, name in ((np.nan, 1, "low"), (-np.inf, 1, "low"), (0, np.inf, "high"), (None, np.nan, "high")):
+        for call in (cgt.colors.entries, cgt.colors.by_value,
+                     lambda v, **ends: cgt.Look(colors=v, map="magma", **ends)):
+            with pytest.raises(cgt.InvalidArgument, match=f"^{name}: .*: must be finite"):
+                call([0, 1, 2.0], low=low, high=high)
+    with np.errstate(all="raise"):
+        for largest in (1e308, np.finfo("f8").max):
+            assert cgt.colors.entries([-largest, 0, largest, np.nan]).tolist() == [0, 512, 1023, 1024]
+            assert cgt.colors.entries([-largest, largest]).tolist() == [0, 1023]
+            assert cgt.colors.entries([-largest, 0.5, largest], low=0, high=1).tolist() == [0, 512, 1023]
     with pytest.raises(cgt.InvalidArgument, match="map: 'rainbow': one of viridis"):
         cgt.colors.palette("rainbow")
     kinds = cgt.colors.by_type([1, 2, 17])
@@ -339,6 +382,21 @@ def test_cameras_fit_turn_and_light():
         one.fit(ends, 90, 60)
         two.fit(cgt.Spheres([[0, 0, 0], [0, 30.0, 0]], np.float32(0.2)), 90, 60)
         assert np.array_equal(one.eye, two.eye)
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1000, 0, 0]], "f8")
+    for used, dtype in ((corners[:3], "u4"), (corners, "i8"), (corners, "u8"), (corners, "u1")):
+        camera = cgt.Camera()
+        camera.fit(iter([cgt.Triangles(used, np.array([[0, 1, 2]], dtype))]), 90, 60)
+        assert camera.eye[0] == 0.5
+    for shape, name in ((cgt.Triangles(corners, [[0, 1, 4]]), "indices"),
+                        (cgt.Triangles(corners, [[0, 1, -1]]), "indices"),
+                        (cgt.Capsules(corners, 0.5, [[0, 4]]), "indices"),
+                        (cgt.Capsules(corners, 0.5, [[-1, 0]]), "indices"),
+                        (cgt.Spheres(corners, [1.0, 2], types=[0, 1, 2, 0]), "types"), (5, "geometries"),
+                        (cgt.Spheres(corners, [1.0, 2], types=[0, 1, -1, 0]), "types"), (None, "geometries")):
+        eye = camera.eye
+        with pytest.raises(cgt.InvalidArgument, match=f"^{name}: "):
+            camera.fit(shape, 90, 60)
+        assert np.array_equal(camera.eye, eye)
     for nothing in ([], cgt.Spheres(np.zeros((0, 3))), cgt.Spheres(np.full((1, 3), np.nan), 1.0)):
         with pytest.raises(cgt.InvalidArgument, match="nothing to show"):
             camera.fit(nothing, 90, 60)

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Scenes and calls: arrays by reference, outputs, errors, threads; values against formulas and against each other."""
+import copy
 import gc
 import logging
+import pickle
 import threading
 import weakref
 
@@ -443,8 +445,46 @@ def test_crossings():
     assert rows.surface[:, 0].tolist() == [0, 0, 0] and rows.more.all()
     after = {name: rows[name][:, 0] for name in ("primitive", "geometry", "surface")}
     assert s.trace_hit_rows(org, dir, 2, ("surface",), after=after, crossings=True).count.tolist() == [1, 1, 1]
+    grid = np.zeros((2, 3, 3)) + org[0]
+    for call in (lambda: s.trace_hit_rows(grid, dir[0], 1), lambda: s.trace_hit_rows(org[0], grid, 1),
+                 lambda: s.trace_all_rays(grid, dir[0]), lambda: s.trace_all_rays(org[0], grid)):
+        with pytest.raises(cgt.InvalidArgument, match=r"shape \(2, 3, 3\): must be \(n, 3\)"):
+            call()
     with pytest.raises(cgt.InvalidArgument, match="after: it lacks 'primitive'"):
         s.trace_hit_rows(org, dir, 1, after={"surface": [0, 0, 0]})
+
+
+def test_frames_of_memory_that_cannot_be_written(scene):
+    frame = scene.trace_camera(cgt.Camera((0, 0, 4)), 40, 30, ("t", "primitive", "geometry", "normal"))
+    buffers = []
+    pickled = pickle.dumps(frame, protocol=5, buffer_callback=buffers.append)
+    others = [pickle.loads(pickled, buffers=[bytes(b.raw()) for b in buffers])]
+    whole = {name: np.zeros((30, 50) + a.shape[2:], a.dtype) for name, a in frame.arrays.items()}
+    apart = scene.trace_camera(cgt.Camera((0, 0, 4)), 40, 30, list(whole), out={k: a[:, :40] for k, a in whole.items()})
+    apart.t.flags.writeable = frame.normal.flags.writeable = False
+    others += [copy.copy(frame), copy.deepcopy(frame), copy.copy(apart)]
+    light = cgt.Light((2, 3, 4))
+    for other in others:
+        assert all(np.array_equal(other[name], a) for name, a in frame.arrays.items()) and set(other) == set(frame)
+        assert np.array_equal(scene.occluded_frame(other, light), scene.occluded_frame(frame, light))
+        other.t[:] = 0  # of its own
+
+
+def test_shadows_of_a_padded_frame_go_to_plain_arrays(scene):
+    camera, lights = cgt.Camera((0, 0, 4)), [cgt.Light((2, 3, 4)), cgt.Light((0, 1, 0), "directional")]
+    wide = {"t": np.zeros((30, 50), "f4")}
+    for rows in ((0, 0), (10, 5)):
+        frame = scene.trace_camera(camera, 40, 30, "t", rows=rows)
+        apart = scene.trace_camera(camera, 40, 30, "t", rows=rows, out={"t": wide["t"][:, :40]})
+        wanted = scene.occluded_frame(frame, lights)
+        for dtype in (np.uint8, bool):
+            out = np.ones((2, 30, 40), dtype)
+            found = scene.occluded_frame(apart, lights, out=out)
+            inside = slice(10, 15) if rows[1] else slice(None)
+            assert np.array_equal(found[:, inside], wanted[:, inside]) and np.shares_memory(found, out)
+            assert found.sum() == wanted[:, inside].sum() + (2 * 25 * 40 if rows[1] else 0)
+        with pytest.raises(cgt.InvalidArgument, match=r"out: .* shape \(2, 30, 40\)"):
+            scene.occluded_frame(apart, lights, out=np.zeros((2, 30, 50), bool))
 
 
 def test_halves_of_bonds():
@@ -471,9 +511,37 @@ def test_halves_of_bonds():
     for bad, edges, message in (([[0, 4]], None, "bonds: 0 to 4, of 4 positions"), ([[0, -1]], None, "bonds: -1 to 0"),
                                 ([0, 1, 2], None, r"bonds: shape \(3,\): must be \(m, 2\)"),
                                 ([[0.5, 1]], None, "bonds: dtype float64: must be"),
-                                (pairs, np.zeros((3, 3)), "edges: .* the periodic edges")):
+                                (pairs, np.zeros((3, 3)), "edges: .* the periodic edges"),
+                                (pairs, np.full((3, 3), np.nan), "edges: .* the periodic edges")):
         with pytest.raises(cgt.InvalidArgument, match=message):
             cgt.half_bonds(x, bad, edges)
+    for periodic in ("yes", None, (1.5, 1, 1), (1, 1)):
+        with pytest.raises(cgt.InvalidArgument, match="periodic: .*: must be True, False, or three"):
+            cgt.half_bonds(x, pairs, box, periodic)
+
+
+def test_bonds_go_to_the_nearest_image_however_a_box_leans():
+    slim = np.array([[4.2857, 0, 0], [-4.0, 1.54, 0], [0, 0, 10.0]])  # and one that is far from reduced
+    far = cgt.half_bonds([[1, 1, 1], [1, 2.5, 1]], [[0, 1]], [[10, 0, 0], [40, 10, 0], [0, 0, 10]])[0]
+    assert far[1].tolist() == [1, 1.75, 1]
+    a, c = 10.473, np.cos(np.radians(24.16))  # Bi2Te3's primitive cell
+    y = (c - c * c) / np.sqrt(1 - c * c)
+    rhombus = a * np.array([[1, 0, 0], [c, np.sqrt(1 - c * c), 0], [c, y, np.sqrt(1 - c * c - y * y)]])
+    x = np.array([[0.4, 0.4, 0.4], [0.7905, 0.7905, -0.2095]]) @ rhombus
+    near = cgt.half_bonds(x, [[0, 1]], rhombus)[0]
+    assert abs(2 * np.linalg.norm(near[1] - near[0]) - 3.073) < 1e-3
+    r = np.random.default_rng(4)
+    x, pairs = r.uniform(-20, 20, (40, 3)), r.integers(0, 40, (60, 2))
+    times = np.stack(np.meshgrid(*[np.arange(-6, 7)] * 3), axis=-1).reshape(-1, 3)
+    for box in (rhombus, slim, *r.normal(0, 3, (20, 3, 3))):
+        for periodic in ((1, 1, 1), (1, 0, 1), (0, 1, 0), (0, 0, 0)):
+            edges = box[np.array(periodic, bool)]
+            near = cgt.half_bonds(x, pairs, box, periodic)[0][:120]
+            found = 2 * (near[1::2] - near[0::2])
+            whole = (found - x[pairs[:, 1]] + x[pairs[:, 0]]) @ np.linalg.pinv(edges)
+            assert np.allclose(whole, np.rint(whole))  # an image
+            images = found[:, None] + times[:, np.array(periodic, bool)] @ edges
+            assert (np.linalg.norm(found, axis=1) < np.linalg.norm(images, axis=2).min(axis=1) + 1e-4).all()
 
 
 def test_points_inside(cloud, scene):

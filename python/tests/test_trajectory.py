@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 """Files, frame by frame; left out where libcgt was installed without its readers."""
+import copy
 import os
 import struct
 import threading
@@ -174,6 +175,63 @@ def test_errors_name_the_file(tmp_path, dump):
             run.read()
     with pytest.raises(cgt.ReadError, match="the format is not one of lammps"):
         cgt.read(dump, format="nonsense")
+
+
+def test_good_frames_stay_readable_after_an_error(dump):
+    whole = dump.read_text()
+    failing = (len, lambda run: run[-1], lambda run: run[:2], lambda run: run[2], lambda run: list(run),
+               lambda run: run.count_frames(), lambda run: [run.skip() for _ in range(3)])
+    for fail in failing:
+        dump.write_text(whole[:-30])
+        run = cgt.read(dump)
+        assert run.read().number == 0
+        for _ in range(2):
+            with pytest.raises(cgt.ReadError, match="run.lammpstrj"):
+                fail(run)
+            assert [run[k].number for k in (0, 1, 0)] == [0, 1, 0] and run.read().number == 1
+        with pytest.raises(cgt.ReadError):
+            run.read()
+        with pytest.raises(cgt.ReadError):
+            run.read()
+        dump.write_text(whole)
+        assert run.read().number == 2 and run.read() is None
+        assert run[2].number == 2 and len(run) == 3 and run[-1].number == 2
+    run = cgt.read(dump)
+    run.read()
+    dump.write_text(whole[:-30])
+    with pytest.raises(cgt.ReadError):
+        len(run)
+    assert run.read().number == 1  # it stays where it was
+
+
+def test_a_file_that_grows_is_counted_anew(dump):
+    whole = dump.read_text()
+    for count in (lambda run: run.count_frames(), lambda run: len(list(run)), lambda run: run[5].number + 1):
+        dump.write_text(whole)
+        run = cgt.read(dump)
+        assert len(run) == 3
+        dump.write_text(whole * 2)
+        assert count(run) == 6 and len(run) == 6 and run[-1].number == 5
+
+
+def test_what_is_looped_over_once_means_the_same(dump):
+    wanted = cgt.read(dump, columns=["c_q"]).read().columns["c_q"]
+    for once in (iter(["c_q"]), (n for n in ["c_q"]), {"c_q"}):
+        assert np.array_equal(cgt.read(dump, columns=once).read()["c_q"], wanted)
+    with pytest.raises(cgt.InvalidArgument, match="columns: nope: the file has"):
+        cgt.read(dump, columns=(n for n in ["nope"])).read()
+    for columns in (5, [1], b"c_q", (n for n in [b"c_q"])):
+        with pytest.raises(cgt.InvalidArgument, match="columns: .*: must be"):
+            cgt.read(dump, columns=columns)
+    assert len(cgt.Trajectory((p for p in [dump, dump]), (), {})) == 6
+    assert cgt.sort_series(p for p in [dump]) == [os.fspath(dump)]
+    for paths in ("a.xyz", b"a.xyz", dump, 5):
+        with pytest.raises(cgt.InvalidArgument, match="paths: .*: must be a sequence of paths"):
+            cgt.sort_series(paths)
+    origin = [1, 2, 0]
+    run = cgt.read(dump, origin=origin)
+    origin[0] = 5
+    assert copy.copy(run).read().origin.tolist() == [1, 2, 0]
 
 
 def test_doubts_are_warnings(tmp_path):

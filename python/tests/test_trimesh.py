@@ -221,6 +221,27 @@ def test_changes_are_seen():
     assert not rays.intersects_any([[0, 0, -5]], [[0, 0, 1]]).any()
 
 
+def test_meshes_of_another_shape_are_refused():
+    mesh = box()
+    quads, flat = np.array([[0, 1, 3, 2]] * 3), mesh.vertices[:6, :2]
+    rays = RayMeshIntersector(box())
+    for vertices, faces, name in ((mesh.vertices, quads, "faces"), (mesh.vertices, [0, 1, 3], "faces"),
+                                  (mesh.vertices, quads[None, :, :3], "faces"), (flat, [[0, 1, 2]], "vertices"),
+                                  (mesh.vertices.reshape(-1), mesh.faces, "vertices"), (mesh.vertices, "a", "faces"),
+                                  (mesh.vertices, [[0, 1], [2]], "faces"), (None, mesh.faces, "vertices")):
+        rays.mesh = SimpleNamespace(vertices=vertices, faces=faces)
+        with pytest.raises(cgt.InvalidArgument, match=f"^mesh.{name}: "):
+            rays.update()
+    for vertices, faces in ((np.empty((0, 3)), np.empty((0, 3), int)), ([], []), (mesh.vertices, []),
+                            (mesh.vertices, np.empty((0, 4), int))):
+        rays.mesh = SimpleNamespace(vertices=vertices, faces=faces)
+        rays.update()
+        assert not rays.intersects_any([[0, 0, 5]], [[0, 0, -1]])[0]
+    rays.mesh = SimpleNamespace(vertices=mesh.vertices.tolist(), faces=mesh.faces.tolist())
+    rays.update()
+    assert rays.intersects_any([[0.1, 0.2, 5]], [[0, 0, -1]])[0]
+
+
 def test_bad_arguments_are_named():
     rays = RayMeshIntersector(box())
     with pytest.raises(cgt.InvalidArgument, match=r"ray_origins, ray_directions: shapes \(3,\)"):
