@@ -12,6 +12,7 @@
 #define EXACT_TEXT(x) EXACT_TEXT_(x)
 
 #define cgt_exact_line_hits_triangle EXACT_JOIN(EXACT_BUILD, line_meets_triangle)
+#define cgt_exact_triangle_side EXACT_JOIN(EXACT_BUILD, triangle_side)
 #define cgt_exact_sphere_roots EXACT_JOIN(EXACT_BUILD, sphere_roots)
 #define cgt_exact_capsule_roots EXACT_JOIN(EXACT_BUILD, capsule_roots)
 #define cgt_exact_capsule_u EXACT_JOIN(EXACT_BUILD, capsule_u)
@@ -45,6 +46,7 @@
 const exact_build EXACT_BUILD_STRUCT(EXACT_BUILD) = {
     .name = EXACT_TEXT(EXACT_BUILD),
     .line_meets_triangle = cgt_exact_line_hits_triangle,
+    .triangle_side = cgt_exact_triangle_side,
     .sphere_roots = cgt_exact_sphere_roots,
     .capsule_roots = cgt_exact_capsule_roots,
     .capsule_u = cgt_exact_capsule_u,

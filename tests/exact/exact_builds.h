@@ -10,6 +10,7 @@
 typedef struct exact_build {
     const char *name;
     bool (*line_meets_triangle)(const cgt_exact_ray *ray, const cgt_triangle *triangle);
+    int (*triangle_side)(const cgt_exact_ray *ray, const cgt_triangle *triangle);
     int (*sphere_roots)(const cgt_exact_ray *ray, cgt_sphere sphere);
     int (*capsule_roots)(const cgt_exact_ray *ray, const cgt_capsule *capsule, cgt_capsule_part part[2]);
     double (*capsule_u)(const cgt_exact_ray *ray, const cgt_capsule *capsule, bool far);

@@ -12,6 +12,7 @@
 
 #include "exact/exact_builds.h"
 #include "exact/exact_cases.h"
+#include "trace/bounce/surface.h"
 
 #if defined(__x86_64__) && defined(__SIZEOF_FLOAT128__) || LDBL_MANT_DIG == 113
 #define BINARY128 1 /* truth_real has 113 bits and an exponent that holds all that floats give */
@@ -135,12 +136,18 @@ static void check_crossing(const cgt_exact_ray *ray, const cgt_triangle *triangl
         assert_int_equal(others[b]->crossing(ray, triangle), side);
     if (!side)
         return;
+    const cgt_primitive primitive = {.kind = CGT_KIND_TRIANGLES, .triangle = *triangle};
     const int t_sign = cgt_exact_crossing_t_sign(ray, triangle);
-    const double t =
-        cgt_exact_t(ray, &(cgt_exact_root){&(cgt_primitive){.kind = CGT_KIND_TRIANGLES, .triangle = *triangle}, false});
+    const double t = cgt_exact_t(ray, &(cgt_exact_root){&primitive, false});
+    cgt_double_ray line;
+    bounce_surface surface;
+    assert_int_equal(cgt_exact_triangle_side(ray, triangle), side);
+    if (cgt_double_ray_init(ray->org, ray->dir, &line) && cgt_find_surface(&primitive, &line, (float)t, &surface))
+        assert_int_equal(surface.front, side < 0);
     assert_true(t_sign != 0 && (t == 0 || t_sign == (t > 0 ? 1 : -1)));
     for (size_t b = 0; b < TEST_COUNT(others); b++)
-        assert_int_equal(others[b]->crossing_t_sign(ray, triangle), t_sign);
+        assert_true(others[b]->crossing_t_sign(ray, triangle) == t_sign &&
+                    others[b]->triangle_side(ray, triangle) == side);
 }
 
 static void check_builds_on_shape(const cgt_exact_ray *ray, const cgt_primitive *shape, bool hit)
