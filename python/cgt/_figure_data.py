@@ -162,7 +162,7 @@ def _column(name: str, values, count: int):
     """Numbers of a column, or words."""
     known = values.known if isinstance(values, Words) else []
     a = array_of(f"columns: {name}", values.texts if isinstance(values, Words) else values, np.nan)
-    if a.dtype.kind in "US" and isinstance(values, (list, tuple)) and a.ndim == 1:
+    if a.dtype.kind in "US" and isinstance(values, (list, tuple)) and not isinstance(values, Words) and a.ndim == 1:
         a = np.array(values, object)  # numpy makes words of the numbers among them
     if a.dtype == object:
         a = _of_objects(f"columns: {name}", a)

@@ -80,7 +80,7 @@ check bench "bench backends picture figure src simd programs tests" \
 layers='
 trace: builders/bvh core dispatch query scene trace/bands trace/order
 trace/bands: builders/bvh core dispatch exact query scene
-trace/bounce: dispatch model query scene trace
+trace/bounce: dispatch exact exact/integer model query scene trace
 trace/order: core dispatch query scene
 builders: builders/bands core dispatch model scene
 builders/bands: core exact scene
