@@ -28,9 +28,9 @@
  * error of m.m are at most 2^-32 of their sizes, and errs by 2^-31 of itself at most. The other one, P / (m.w + |n| h),
  * has the error of P instead of that of m.m.
  * A normal is across the axis, over r: an error of t counts |m| / |n| times there. From afar that asks for more than t
- * itself does. That of the numerator, over m.m, is at most 2^-26 of r where it is at most 2^-27 r |n| M, since M is below
- * 2 |m|; that of P, over the denominator, where it is at most 2^-27 r |n| / M of that. An error of m.m counts 12 e c / r
- * at most.
+ * itself does. That of the numerator, over m.m, is at most 2^-26 of r where it is at most 2^-27 r |n| M, since M is
+ * below 2 |m|; that of P, over the denominator, where it is at most 2^-27 r |n| / M of that. An error of m.m counts
+ * 12 e c / r at most.
  *   u = (X +- d.n h / |n|) / m.m, or Q / (n.n (X -+ d.n h / |n|)) where that cancels, since (X n.n)^2 - (d.n)^2 n.n E =
  * n.n m.m Q: in the same way, d.n h / |n| within (6 e D N h + 24 e |d.n| G s / h) / |n|.
  * No term leaves the range of double: roots of n.n and E are taken apart.

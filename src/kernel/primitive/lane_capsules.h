@@ -206,9 +206,9 @@ CGT_SPU_INLINE vmask lane_leave_capsule(const lane_rays *r, const vfloat p[3], c
 
 /* ---- The line alone, in fewer operations ----
  * With m = d x n and c = p - org a line misses the capsule if |m.c| > r |m|. In normalised space, with |d_a| <= 2, the
- * largest |n_a| from 1 to 2, which a power of 2 brings it to, and A at least |c| and the error of the origin: n is off by
- * u |n_a|, and m by three times that in its factors, 6 u |n| in each component, none of which is above 2 |n|. Then m.c
- * is within
+ * largest |n_a| from 1 to 2, which a power of 2 brings it to, and A at least |c| and the error of the origin: n is off
+ * by u |n_a|, and m by three times that in its factors, 6 u |n| in each component, none of which is above 2 |n|. Then
+ * m.c is within
  *   2 |n| A (3 u + u + 3 u)
  * by m, by c and by the sum, and |m| within 3 u sqrt(3) 2 |n| < 11 u |n|. So it misses where
  *   |m.c| > r |m| + 20 u |n| (A + r) + 2^-116,

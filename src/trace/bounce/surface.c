@@ -136,8 +136,8 @@ static double round_t(const cgt_primitive *q, const cgt_double_ray *ray, float t
     return root;
 }
 
-/* Whether a ray comes from where a triangle's normal points to, `along` being its direction times the normal, which errs
- * by 10 e of the product of all lengths (triangle_double.h). */
+/* Whether a ray comes from where a triangle's normal points to, `along` being its direction times the normal, which
+ * errs by 10 e of the product of all lengths (triangle_double.h). */
 static bool is_front(const cgt_triangle *q, const cgt_double_ray *ray, double along, const double e[2][3])
 {
     double size[3] = {0, 0, 0};

@@ -247,8 +247,8 @@ static void count_fast(driver_run *run, uint32_t i, const full_hit *h)
 }
 
 /* Whether a ray from well inside a closed mesh, and not at the begin of its range, leaves it at an edge: the watertight
- * test of single precision may leak beside vertices alone, where more than two triangles meet. Far from the origin t may
- * be anything. */
+ * test of single precision may leak beside vertices alone, where more than two triangles meet. Far from the origin t
+ * may be anything. */
 static bool leaks_at_edge(driver_run *run, uint32_t i, const full_hit *h)
 {
     const judge_truth *const right = &run->right[i];
