@@ -12,9 +12,11 @@
 
 #include "figure_state.h"
 
-#if defined __linux__ && !defined __SANITIZE_ADDRESS__ && !defined __SANITIZE_THREAD__
+#include "core/sanitized.h"
+
+#if defined __linux__ && !CGT_SANITIZED /* sanitizers have memory of their own */
 #include <sys/resource.h>
-#define CAN_LIMIT_MEMORY /* sanitizers have memory of their own */
+#define CAN_LIMIT_MEMORY
 #endif
 
 enum { GRAINS = 4, WIDTH = 60, HEIGHT = 45, BYTES = 3 * WIDTH * HEIGHT };

@@ -110,5 +110,7 @@ void render_options_parse(render_options *options, int argc, char **argv)
         printf("%s", lines);
         options_print_others(render_option_table(), &given);
     }
-    exit(program_exit(lines ? PROGRAM_OK : PROGRAM_FAILED));
+    const int code = lines ? PROGRAM_OK : PROGRAM_FAILED;
+    free(lines);
+    exit(program_exit(code));
 }
