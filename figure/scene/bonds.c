@@ -112,7 +112,7 @@ int cgt_shapes_add_bonds(sticks *s, const bond_rules *r, const cgt_trajectory_fr
                          size_t error_size)
 {
     near_bonds near = {s, r, p};
-    const int has_bonds = f->bonds > 0 || f->bond_source == CGT_TRAJECTORY_BONDS_GUESSED;
+    const int has_bonds = f->bonds > 0 || f->bond_source == CGT_TRAJECTORY_BONDS_GUESSED; /* to own images alone */
     const int failed = r->distance > 0.0f ? cgt_near_pairs_find(p->xyzr, p->count, r->distance, add_near_bond, &near)
                        : has_bonds        ? add_frame_bonds(s, r, f, p)
                                           : 0;

@@ -271,7 +271,7 @@ class Outputs:
         Arrays by name.
     """
 
-    def __init__(self, shape, fields, kinds, out=None):
+    def __init__(self, shape, fields, kinds, out=None, argument="fields"):
         self.shape, self.is_own = tuple(shape), out is None
         self.arrays: Dict[str, np.ndarray] = {}
         self.keep: List[Hold] = []
@@ -279,7 +279,7 @@ class Outputs:
             raise InvalidArgument(f"out: {type(out).__name__}: must be arrays by field, or a structured array")
         for field in fields:
             if field not in kinds:
-                raise InvalidArgument(f"fields: {field!r}: one of {', '.join(kinds)}")
+                raise InvalidArgument(f"{argument}: {field!r}: one of {', '.join(kinds)}")
             dtype, width = kinds[field]
             full = self.shape + ((width,) if width > 1 else ())
             if out is None:

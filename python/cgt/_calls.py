@@ -45,10 +45,10 @@ def _names(argument: str, names: Sequence[str]) -> Tuple[str, ...]:
     return tuple(names)
 
 
-def _expand(fields: Sequence[str]) -> Tuple[str, ...]:
+def _expand(fields: Sequence[str], argument: str = "fields") -> Tuple[str, ...]:
     """'uv' stands for u and v, which C gives together."""
     wanted: List[str] = []
-    for name in _names("fields", fields):
+    for name in _names(argument, fields):
         wanted += ["u", "v"] if name in ("uv", "u", "v") else [name]
     return tuple(dict.fromkeys(wanted))
 

@@ -42,16 +42,14 @@ class FigureData:
     def __init__(self, positions, *, radius=None, columns: Optional[Mapping] = None, bonds=None, cell=None, pbc=True,
                  triangles=None, corner=(0.0, 0.0, 0.0), unwrapped=(0, 0, 0), angstrom: float = 1.0,
                  number: Optional[int] = None, step: Optional[int] = None, time: Optional[float] = None,
-                 origin=None, unread=()):
+                 origin=None, unread=(), odd: Optional[Mapping] = None):
         self.positions = _floats("positions", positions, ("n", 3))
         count = len(self.positions)
         self.columns: Dict[str, Any] = {}
         self.radius, self.angstrom, self.origin = 0.0, real("angstrom", angstrom), origin
         if not 0 <= self.angstrom < np.inf:
             raise InvalidArgument(f"angstrom: {angstrom}: must be 0, as by default, or above")
-        if not isinstance({} if columns is None else columns, Mapping):
-            raise InvalidArgument(f"columns: {type(columns).__name__}: must be a dictionary, or a table")
-        for name, values in dict(columns or {}).items():
+        for name, values in ({} if columns is None else columns_of(columns)).items():
             self.columns[str(name)] = _column(str(name), values, count)
         if radius is not None and array_of("radius", radius).ndim:
             self.columns["radius"] = numbers("radius", radius, F4, (count,))
@@ -73,7 +71,7 @@ class FigureData:
             self.periodic, self.unwrapped = flags("pbc", pbc), flags("unwrapped", unwrapped) != 0
             self.corner = numbers("corner", corner, F8, (3,))
             self._complete()
-        self.number, self.step, self.unread = number, step, unread
+        self.number, self.step, self.unread, self.odd = number, step, unread, odd or {}
         self.time = None if time is None else numbers("time", time, F8)
         if self.time is not None and self.time.ndim:
             raise InvalidArgument(f"time: shape {self.time.shape}: must be one number")
@@ -107,6 +105,9 @@ class FigureData:
         for column, (name, values) in zip(columns, self.columns.items()):
             keep.append(ffi.new("char[]", name.encode(errors="replace")))
             column.name = keep[-1]
+            is_number = not isinstance(values, Words) and values.dtype.kind == "f" and values.ndim == 1
+            if name in tables and is_number and np.isnan(values).all():
+                values = Words(np.full(len(values), ""), [])  # words of other frames, all of which this one lacks
             if isinstance(values, Words):
                 words = tables.setdefault(name, [])
                 values = values.number(words)
@@ -141,6 +142,8 @@ def _floats(name: str, values, shape) -> np.ndarray:
 
 def _of_objects(name: str, a: np.ndarray) -> np.ndarray:
     """Words or numbers of an array of objects, as tables have them; what is missing is no word, or NaN."""
+    if a.size and all(x.__class__ is str for x in a.flat):  # of large molecules, in each frame
+        return a.astype(str)
     missing = np.array([x is None or type(x).__name__ == "NAType" or (isinstance(x, (float, np.floating)) and x != x)
                         for x in a.flat], bool).reshape(a.shape)
     found = a[~missing].tolist()
@@ -163,7 +166,8 @@ def _column(name: str, values, count: int):
     known = values.known if isinstance(values, Words) else []
     a = array_of(f"columns: {name}", values.texts if isinstance(values, Words) else values, np.nan)
     if a.dtype.kind in "US" and isinstance(values, (list, tuple)) and not isinstance(values, Words) and a.ndim == 1:
-        a = np.array(values, object)  # numpy makes words of the numbers among them
+        # numpy makes words of the numbers among them
+        a = np.array([None if x is np.ma.masked else x for x in values] + [None], object)[:-1]
     if a.dtype == object:
         a = _of_objects(f"columns: {name}", a)
     if a.dtype.kind in "US":
@@ -206,17 +210,32 @@ def take(given, **more) -> FigureData:
         if any(isinstance(a, Words) for a in places):
             raise InvalidArgument("data: a table needs numbers in its columns x, y and z")
         found = {"positions": np.column_stack(places),
-                 "columns": {name: np.asarray(given[name]) for name in names}}
+                 **_usable({str(name): given[name] for name in names}, len(places[0]))}
     else:
         found = {"positions": given}
     more = {name: value for name, value in more.items() if value is not None}
     if "columns" in more:
         table = more["columns"]
-        if not isinstance(table, Mapping) and not hasattr(table, "to_numpy"):  # each frame of a run reads them
-            raise InvalidArgument(f"columns: {type(table).__name__}: must be a dictionary, or a table")
-        table = {name: table[name] for name in table}
-        more["columns"] = {**found.get("columns", {}), **table}
+        more["columns"] = {**found.get("columns", {}), **columns_of(table)}
     return FigureData(**{**found, **more})
+
+
+def columns_of(table) -> dict:
+    """The columns of a dictionary or a table: what gives them once alone is none, since each frame of a run reads them."""
+    if not isinstance(table, Mapping) and not hasattr(table, "keys"):
+        raise InvalidArgument(f"columns: {type(table).__name__}: must be a dictionary, or a table")
+    return {name: table[name] for name in table.keys()}
+
+
+def _usable(columns: Mapping, count: int) -> dict:
+    """Those of an object that nobody may have asked for; of odd objects, such as dates, what to say where one is."""
+    kept, odd = {}, {}
+    for name, values in columns.items():
+        try:
+            kept[name] = _column(name, values, count)
+        except InvalidArgument as refused:
+            odd[name] = str(refused)
+    return {"columns": kept, "odd": odd}
 
 
 def _of_frame(f: TrajectoryFrame) -> dict:
@@ -248,7 +267,7 @@ def _of_ase(atoms) -> dict:
     forces = getattr(getattr(atoms, "calc", None), "results", {}).get("forces")
     if forces is not None and np.shape(forces) == np.shape(atoms.get_positions()):
         columns.update(zip(("fx", "fy", "fz"), np.transpose(forces)))
-    found = {"positions": atoms.get_positions(), "columns": columns}
+    found = {"positions": atoms.get_positions(), **_usable(columns, len(atoms.get_positions()))}
     edges = getattr(getattr(atoms, "cell", None), "array", None)
     if edges is not None and edges.any():  # sheets and chains have edges of no length
         found.update(cell=edges, pbc=atoms.pbc & edges.any(axis=1))

@@ -74,7 +74,7 @@ class Frames:
         if visitor is not None:
             if not callable(visitor):
                 raise InvalidArgument(f"visitor: {type(visitor).__name__}: must be a function")
-            names = _expand(visitor_fields)
+            names = _expand(visitor_fields, "visitor_fields")
             callback = _tile_callback(visitor, names, errors)
             struct.visitor = callback
             struct.visitor_fields = _field_bits(names)

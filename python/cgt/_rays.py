@@ -316,7 +316,7 @@ class Rays:
         record = np.zeros(count, np.dtype({"names": list(SURFACE_FIELDS), "offsets": [0, 24, 48, 64, 72],
                                            "formats": [(d, (w,)) if w > 1 else d
                                                        for d, w in SURFACE_FIELDS.values()], "itemsize": 80}))
-        places = Outputs((count,), names, SURFACE_FIELDS, record)
+        places = Outputs((count,), names, SURFACE_FIELDS, record, "surfaces")
         surface = ffi.new("cgt_surfaces *", {"stride": 80, **places.pointers()}) if names else ffi.NULL
         with self._gate.shared:
             self._check(lib.cgt_bounce_rays(self._traced, rays.struct, found, media, surface, *structs, ffi.NULL))

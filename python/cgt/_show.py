@@ -10,13 +10,12 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping
 from typing import Any, List, Optional, Sequence, Union
 
 import numpy as np
 
 from ._arrays import array_of
-from ._figure_data import FigureData
+from ._figure_data import FigureData, columns_of
 from ._native import InvalidArgument
 from .colors import code_of, code_of_light, light_of
 from .figure import Figure
@@ -108,9 +107,7 @@ def show(data, radii=None, colors: Any = None, *, bonds: Any = False, window: Op
         else:
             own = {"rgb": light_of("colors", colors, (len(a), 3))}
         columns = more.get("columns")
-        if columns is not None and not isinstance(columns, Mapping) and not hasattr(columns, "to_numpy"):
-            raise InvalidArgument(f"columns: {type(columns).__name__}: must be a dictionary, or a table")
-        more["columns"] = {**{name: columns[name] for name in (() if columns is None else columns)}, **own}
+        more["columns"] = {**({} if columns is None else columns_of(columns)), **own}
     figure = Figure(**options, bonds=bonds).show(data, radius=radii, **more)
     shown = figure._shown
     if shown is not None and (window or (window is None and shown.triangles is None and _can_open())):

@@ -182,7 +182,8 @@ class Figure(Plain):
         In the unit of lengths, for radii by element.
 
     Copies and pickles have the options, the mesh that stands, an assigned camera, and the shown frame, of its arrays as
-    they are then; after a survey only the first three: the copy has to make it anew.
+    they are then, which is the first that they look at: what follows the first of several is that one's. After a survey
+    they have only the first three: the copy has to make it anew.
 
     One thread at a time uses a figure: others get `InUse`. All that takes time releases Python's lock.
 
@@ -236,11 +237,12 @@ class Figure(Plain):
         return {**self._given, **self.options}
 
     def _rest(self) -> dict:
-        frame, is_shown = (self._again or self._shown) if self._looked != "survey" else None, self._again is None
-        if frame is not None and frame.number is None and is_shown:
-            frame = copy.copy(frame)
-            frame.number = self._counts[1] - 1
-        return {**super()._rest(), "_state": (frame, is_shown, self._mesh, self._view, self._has_lens)}
+        with self._gate.alone:
+            frame, is_shown = (self._again or self._shown) if self._looked != "survey" else None, self._again is None
+            if frame is not None and frame.number is None and is_shown:
+                frame = copy.copy(frame)
+                frame.number = self._counts[1] - 1
+            return {**super()._rest(), "_state": (frame, is_shown, self._mesh, self._view, self._has_lens)}
 
     def _set_state(self, state) -> None:
         frame, is_shown, mesh, view, self._has_lens = state
@@ -364,6 +366,9 @@ class Figure(Plain):
             self._check(call(self._open, c))
         except Error as error:
             self._forget()
+            for name, sentence in data.odd.items():
+                if f'column "{name}"' in str(error):
+                    raise InvalidArgument(sentence) from None
             unread = [name for name in data.unread if f'column "{name}"' in str(error)]
             if unread:
                 raise InvalidArgument(f"{error}; the file has it: cgt.read(..., columns={unread})") from None

@@ -295,6 +295,8 @@ class Trajectory(Plain):
 
     def _count_all(self) -> int:
         """Within the gate: counts the frames, and goes back to the first; an error leaves the next one the next."""
+        if self._failed and lib.cgt_trajectory_can_rewind(self._open):  # else C repeats what it was
+            self._rewind()
         count = ffi.new("uint64_t *")
         self._check(lib.cgt_trajectory_count_frames(self._open, count))
         self._next, self._failed = 0, False

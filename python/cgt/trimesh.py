@@ -31,7 +31,7 @@ def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 def _rows(name: str, a: ArrayLike, dtype: np.dtype) -> np.ndarray:
     """Threes of numbers; where there are none, of whatever shape."""
-    found = numbers(name, np.asarray(a) if hasattr(a, "__array__") else a, dtype)
+    found = numbers(name, a, dtype)
     if found.size:
         check_shape(name, found, ("n", 3))
     return found.reshape(-1, 3)

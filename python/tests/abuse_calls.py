@@ -123,7 +123,7 @@ def a_visitor_takes_nothing():
     scene_of().trace_camera(CAMERA, 8, 6, visitor=lambda: None)
 
 
-@case(REFUSED, "visitor_fields|fields")
+@case(REFUSED, "visitor_fields")
 def a_visitor_wants_what_is_not_there():
     scene_of().trace_camera(CAMERA, 8, 6, visitor=print, visitor_fields=("color",))
 

@@ -559,6 +559,8 @@ def test_mirrors_and_glass():
     s.commit()
     org, dir = np.array([[0.5, 0, 5], [8, 8, 5.0]]), np.array([[0, 0, -1.0]] * 2)
     hits = s.trace_rays(org, dir, ("t", "primitive", "geometry"))
+    with pytest.raises(cgt.InvalidArgument, match="^surfaces: 'foo'"):
+        s.bounce_rays(org, dir, hits, surfaces=("foo",))
     reflected, refracted, surface = s.bounce_rays(org, dir, hits, inside=1.5, surfaces=("position", "normal", "front"))
     height = np.sqrt(0.75)
     assert np.allclose(surface.position[0], (0.5, 0, height)) and surface.front.tolist() == [1, 0]

@@ -202,6 +202,12 @@ def test_good_frames_stay_readable_after_an_error(dump):
     with pytest.raises(cgt.ReadError):
         len(run)
     assert run.read().number == 1  # it stays where it was
+    step = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS id x y z\n"
+    dump.write_text("".join(f"{step}1 {x} 0 0\n" for x in "0?0"))  # skipping does not see it
+    run = cgt.read(dump)
+    with pytest.raises(cgt.ReadError):
+        list(run)
+    assert run.count_frames() == 3 and len(run) == 3
 
 
 def test_a_file_that_grows_is_counted_anew(dump):

@@ -228,7 +228,8 @@ def test_meshes_of_another_shape_are_refused():
     for vertices, faces, name in ((mesh.vertices, quads, "faces"), (mesh.vertices, [0, 1, 3], "faces"),
                                   (mesh.vertices, quads[None, :, :3], "faces"), (flat, [[0, 1, 2]], "vertices"),
                                   (mesh.vertices.reshape(-1), mesh.faces, "vertices"), (mesh.vertices, "a", "faces"),
-                                  (mesh.vertices, [[0, 1], [2]], "faces"), (None, mesh.faces, "vertices")):
+                                  (mesh.vertices, [[0, 1], [2]], "faces"), (None, mesh.faces, "vertices"),
+                                  (np.ma.masked_equal(mesh.vertices, 0.5), mesh.faces, "vertices")):
         rays.mesh = SimpleNamespace(vertices=vertices, faces=faces)
         with pytest.raises(cgt.InvalidArgument, match=f"^mesh.{name}: "):
             rays.update()

@@ -139,6 +139,20 @@ static void fill_members(const cgt_trajectory_column *column, expression_list li
     }
 }
 
+static int refuse_number(const char *column, const char *example, const cgt_trajectory_frame *frame, char *error,
+                         size_t size)
+{
+    return refuse(frame, error, size, "has words in the column \"%s\": compare by == or != with one in quotes, \"%s\"",
+                  column, example);
+}
+
+/* The same, with a word of the column. */
+static int refuse_words(const char *column, const cgt_trajectory_column *words, const cgt_trajectory_frame *frame,
+                        char *error, size_t size)
+{
+    return refuse_number(column, words->words ? words->word[0] : "A", frame, error, size);
+}
+
 static int bind_word(expression *e, uint32_t i, const cgt_trajectory_frame *frame, const float *speed, char *error,
                      size_t size)
 {
@@ -160,6 +174,8 @@ static int bind_word(expression *e, uint32_t i, const cgt_trajectory_frame *fram
             return refuse(frame, error, size, "has numbers in the column \"%s\": it is never the word \"%s\"", name,
                           word->text);
         const int failed = bind_name(e, word->bare, frame, speed, error, size);
+        if (!failed && words_of(e, word->bare, frame))
+            return refuse_words(word->text, words_of(e, word->bare, frame), frame, error, size);
         *to = e->sources[word->bare];
         return failed;
     }
@@ -186,17 +202,6 @@ static int is_word(const expression *e, const expression_step *s)
            e->words[s->name - EXPRESSION_NAMES].list == EXPRESSION_LISTS;
 }
 
-static int refuse_words(const expression *e, const expression_step *column, const expression_step *other,
-                        const cgt_trajectory_frame *frame, char *error, size_t size)
-{
-    const cgt_trajectory_column *const words = words_of(e, column->name, frame);
-    return refuse(frame, error, size, "has words in the column \"%s\": compare by == or != with one in quotes, \"%s\"",
-                  e->names[column->name],
-                  other && other->op == OP_NUMBER ? cgt_number(6, other->number).text
-                  : words->words                  ? words->word[0]
-                                                  : "A");
-}
-
 /* Columns of words are compared with words, and may be a condition, or all of a formula: other operations would take
  * places in a list that nobody sees. Goes through the steps with what pushed each value of the stack. */
 static int check_numbers(const expression *e, const cgt_trajectory_frame *frame, char *error, size_t size)
@@ -210,9 +215,15 @@ static int check_numbers(const expression *e, const cgt_trajectory_frame *frame,
         const int is_equality = s->op == OP_EQUAL || s->op == OP_UNEQUAL;
         const int is_comparison = s->op >= OP_LESS && s->op <= OP_UNEQUAL;
         const int is_condition = s->op == OP_NOT || s->op == OP_AND || s->op == OP_OR;
-        for (uint32_t i = s->op == OP_IF; i < operands && !is_condition; i++)
-            if (has_words(e, first[i], frame) && !(is_equality && i == 0 && is_word(e, first[1])))
-                return refuse_words(e, first[i], is_comparison ? first[1 - i] : NULL, frame, error, size);
+        for (uint32_t i = s->op == OP_IF; i < operands && !is_condition; i++) {
+            if (!has_words(e, first[i], frame) || (is_equality && i == 0 && is_word(e, first[1])))
+                continue;
+            const expression_step *const other = is_comparison ? first[1 - i] : NULL;
+            const uint32_t name = first[i]->name;
+            return other && other->op == OP_NUMBER
+                       ? refuse_number(e->names[name], cgt_number(6, other->number).text, frame, error, size)
+                       : refuse_words(e->names[name], words_of(e, name, frame), frame, error, size);
+        }
         top -= operands;
         stack[top++] = operands ? NULL : s;
     }

@@ -204,7 +204,9 @@ int cgt_guess_image_bonds(const cgt_trajectory_frame *f, image_bond_taker *take,
 {
     guess g = {.frame = f, .take_image = take, .user = user};
     const periodic_box box = cgt_periodic_box_of(f);
-    if (f->bond_source != CGT_TRAJECTORY_BONDS_GUESSED || !f->element)
+    const int is_guessed =
+        f->bond_source == CGT_TRAJECTORY_BONDS_GUESSED || f->bond_source == CGT_TRAJECTORY_BONDS_BOTH;
+    if (!is_guessed || !f->element)
         return 0;
     /* Two images that an atom is bonded to are at most two bonds apart, and two images at least the least height. */
     const float longest = longest_bond(f);

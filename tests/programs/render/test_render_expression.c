@@ -231,6 +231,7 @@ TEST(words_that_do_not_fit_are_refused)
         {"if(x > 0, 1, chain)", "compare by == or !="},
         {"max(chain, 2)", "compare by == or !="},
         {"chain == x", "write the word in quotes"},
+        {"charge == chain", "has words in the column \"chain\": compare by == or !="},
         {"charge == 'A'", "it is never the word \"A\""},
         {"charge == A", "no column \"A\", but x, y, z, name"},
         {"element == Xx", "\"Xx\" is none"},
