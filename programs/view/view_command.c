@@ -84,14 +84,14 @@ int view_draw_write(view_draw *d, const char *settings, const char *path)
     char error[PROGRAM_ERROR_SIZE];
     uint32_t width, height;
     char *const size = view_draw_get(d, cgt_figure_get_chosen, "size");
-    char *const title = view_draw_get(d, cgt_figure_get, "title");
+    char *const title = view_draw_get(d, cgt_figure_get, "title"), *const quoted = settings_quote(settings);
     image_writer *const writer = image_writer_create();
     const int has_size = size && sscanf(size, "%" SCNu32 "x%" SCNu32, &width, &height) == 2;
     const size_t pixels = has_size ? (size_t)width * height : 0;
     uint8_t *const rgb = malloc(4 * pixels + 1);
     const cgt_image image = {.bytes = rgb, .alpha = view_draw_has(d, "transparent") ? rgb + 3 * pixels : NULL};
     int result = -1;
-    if (!has_size || !title || !writer || !rgb) {
+    if (!has_size || !title || !quoted || !writer || !rgb) {
         program_error("out of memory for the picture");
     } else if (view_draw_tell(d, cgt_figure_draw(d->figure, &image, NULL)) == 0) {
         title[strcspn(title, "\n")] = '\0';
@@ -99,7 +99,7 @@ int view_draw_write(view_draw *d, const char *settings, const char *path)
         size_t texts_count = 2;
         if (*title)
             texts[texts_count++] = (png_text){"Title", title};
-        texts[texts_count++] = (png_text){"Settings", settings};
+        texts[texts_count++] = (png_text){"Settings", quoted};
         const image_content content = {.width = width,
                                        .height = height,
                                        .rgb = rgb,
@@ -115,6 +115,7 @@ int view_draw_write(view_draw *d, const char *settings, const char *path)
         image_writer_release(writer);
     free(size);
     free(title);
+    free(quoted);
     free(rgb);
     return result;
 }
