@@ -209,12 +209,13 @@ static inline moved_state moved_ray_init_at(moved_ray *r, const cgt_committed_sc
     moved_ray_set_range(r, ray->t_min, ray->t_max);
     r->near = r->near_out;
     r->far = r->far_out;
-    if (at && !moved_ray_is_known(r)) /* far from the scene, which may lie beyond MOVED_END of there */
+    const bool is_known = moved_ray_is_known(r);
+    if (at && !is_known) /* far from the scene, which may lie beyond MOVED_END of there */
         return MOVED_TOO_FAR;
     for (int a = 0; a < 3; a++)
         if (!moved_ray_clip(r, a, low[a], high[a], &r->near, &r->far))
             return MOVED_MISS;
-    if (!moved_ray_is_known(r))
+    if (!is_known)
         return MOVED_TOO_FAR;
     moved_ray_round(r);
     return MOVED_READY;

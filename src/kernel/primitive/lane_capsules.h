@@ -223,8 +223,7 @@ CGT_SPU_INLINE void lane_strip_init(const vfloat p[3], const vfloat q[3], vfloat
     for (int a = 0; a < 3; a++)
         n[a] = spu_sub(q[a], p[a]);
     const vfloat most = spux_max(spux_max(spux_abs(n[0]), spux_abs(n[1])), spux_abs(n[2]));
-    const vuint exponent = spu_and((vuint)most, spux_vuint(0x7f800000));
-    const vfloat inverse = (vfloat)spu_sub(spux_vuint(0x7f000000), exponent);
+    const vfloat inverse = lane_inverse_power(lane_power(most));
     for (int a = 0; a < 3; a++)
         n[a] = spu_mul(n[a], inverse);
     *error = spu_mul(lane_sum(n), spux_vfloat(20 * FILTER_ROUNDOFF));

@@ -40,4 +40,10 @@ CGT_SPU_INLINE vfloat lane_sum(const vfloat v[3])
     return spu_add(spux_abs(v[0]), spu_add(spux_abs(v[1]), spux_abs(v[2])));
 }
 
+/* The powers of two whose multiples from 1 to below 2 these positive numbers are; 0 for denormals. */
+CGT_SPU_INLINE vfloat lane_power(vfloat x) { return (vfloat)spu_and((vuint)x, spux_vuint(0x7f800000)); }
+
+/* 1 over them, 2^127 for 0: the exponents of both add up to twice the bias. */
+CGT_SPU_INLINE vfloat lane_inverse_power(vfloat power) { return (vfloat)spu_sub(spux_vuint(0x7f000000), (vuint)power); }
+
 #endif

@@ -38,16 +38,16 @@ CGT_SPU_INLINE void stream_bounds_add_place(vfloat *low, vfloat *high, vfloat or
     *high = spux_select(*high, spux_max(*high, spu_add(place, margin)), lanes);
 }
 
-/* Adds rays. starts: they begin elsewhere than at their origins; where that is beyond all that can be reached, infinity
- * times a direction of 0 would be no number. */
+/* Adds rays. starts: they begin elsewhere than at their origins. Those that begin or end beyond all that can be reached
+ * reach nothing, but infinity times a direction of 0 would be no number. */
 CGT_SPU_INLINE void stream_bounds_add(stream_bounds *b, const vfloat org[3], const vfloat dir[3], vfloat first,
                                       vfloat last, vmask lanes, bool starts)
 {
-    const vfloat begin = spux_min(first, spux_vfloat(BVH_MAX_T));
+    const vfloat begin = spux_min(first, spux_vfloat(BVH_MAX_T)), end = spux_max(last, spux_vfloat(-BVH_MAX_T));
     for (int a = 0; a < 3; a++) {
         b->org_low[a] = spux_select(b->org_low[a], spux_min(b->org_low[a], org[a]), lanes);
         b->org_high[a] = spux_select(b->org_high[a], spux_max(b->org_high[a], org[a]), lanes);
-        stream_bounds_add_place(&b->end_low[a], &b->end_high[a], org[a], dir[a], last, lanes);
+        stream_bounds_add_place(&b->end_low[a], &b->end_high[a], org[a], dir[a], end, lanes);
         if (starts)
             stream_bounds_add_place(&b->start_low[a], &b->start_high[a], org[a], dir[a], begin, lanes);
     }
@@ -62,8 +62,7 @@ CGT_SPU_INLINE void stream_store_records(stream *s, uint32_t i, uint32_t count, 
     ray_lanes q;
     ray_lanes_load(c->source, c->first + i, count, &q);
     const vfloat longest = ray_largest(q.dir);
-    const vuint exponent = spu_and((vuint)longest, spux_vuint(0x7f800000));
-    const vfloat power = (vfloat)exponent, inverse = (vfloat)spu_sub(spux_vuint(0x7f000000), exponent);
+    const vfloat power = lane_power(longest), inverse = lane_inverse_power(power);
     const vfloat speed = spu_mul(power, scale); /* s */
     vfloat org[3], dir[3], rdir[3], shift[3];
     vuint octant = spux_vuint(0);
@@ -89,9 +88,7 @@ CGT_SPU_INLINE void stream_store_records(stream *s, uint32_t i, uint32_t count, 
     const vfloat first = spux_max(near, spux_vfloat(-BVH_MAX_T));
     /* rays that are not traced must not look as if they had hit */
     const vfloat last = spux_select(spux_min(far, end), end, state.unusual);
-    /* a ray that ends before reaches nothing, but its place may be no number */
-    stream_bounds_add(bounds, org, dir, first, spux_max(last, spux_vfloat(-BVH_MAX_T)), streams,
-                      c->source->rays->t_min);
+    stream_bounds_add(bounds, org, dir, first, last, streams, c->source->rays->t_min);
     vfloat row[STREAM_RECORD] = {rdir[0], rdir[1], rdir[2], first, shift[0], shift[1], shift[2], last,
                                  org[0],  org[1],  org[2],  first, dir[0],   dir[1],   dir[2],   last};
     for (uint32_t k = 0; k < STREAM_RECORD; k += CGT_LANES) {
