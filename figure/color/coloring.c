@@ -65,13 +65,22 @@ int cgt_coloring_init_plain(coloring *c, const float srgb[3])
     return 0;
 }
 
+/* Which of those that have a colour of their own a kind is; given_count: none. */
+static uint32_t find_given(const coloring *c, int64_t kind)
+{
+    uint32_t i = 0;
+    while (i < c->given_count && c->given[i] != kind)
+        i++;
+    return i;
+}
+
 /* Types and categories count from 1, elements from 0 for none. Beyond the palette they begin again. No word is
  * unknown. */
 uint16_t cgt_coloring_entry_of_kind(const coloring *c, int64_t kind)
 {
-    for (uint32_t i = 0; i < c->given_count; i++)
-        if (c->given[i] == kind)
-            return (uint16_t)(COLORING_GIVEN + i);
+    const uint32_t given = find_given(c, kind);
+    if (given < c->given_count)
+        return (uint16_t)(COLORING_GIVEN + given);
     const int64_t from = c->by == COLORING_ELEMENT ? 0 : COLORING_STEPS - 1;
     if (c->by == COLORING_CATEGORY && c->categories->has_words && kind == 0)
         return COLORING_UNKNOWN;
@@ -81,13 +90,11 @@ uint16_t cgt_coloring_entry_of_kind(const coloring *c, int64_t kind)
 
 void cgt_coloring_set_kind(coloring *c, int64_t kind, const float srgb[3])
 {
-    uint32_t i = 0;
-    while (i < c->given_count && c->given[i] != kind)
-        i++;
+    const uint32_t i = find_given(c, kind);
     if (i == PARTICLE_KINDS)
         return;
     c->given[i] = kind;
-    c->given_count = i < c->given_count ? c->given_count : i + 1;
+    c->given_count += i == c->given_count;
     set_entry(c, COLORING_GIVEN + i, srgb);
 }
 

@@ -14,6 +14,7 @@
 #include "common/out_file.h"
 #include "common/program.h"
 #include "options/figure_options.h"
+#include "options/figure_settings.h"
 
 enum { MOST_LINE = 4096, MOST_LINES = 1000000 };
 
@@ -222,12 +223,12 @@ char *settings_quote(const char *lines)
     if (!text)
         return NULL;
     for (const char *line = lines, *next; *line; line = next) {
-        next = settings_next_line(line);
-        const size_t length = strcspn(line, "\n"), own = settings_name_length(line);
-        const size_t begin = length >= own + 3 && memcmp(line + own, " = ", 3) == 0 ? own + 3 : length;
-        const char *const quote = needs_quotes(line + begin, length - begin) ? "\"" : "";
-        used += (size_t)sprintf(text + used, "%.*s%s%.*s%s%s", (int)begin, line, quote, (int)(length - begin),
-                                line + begin, quote, line[length] ? "\n" : "");
+        settings_line l;
+        next = cgt_figure_settings_line(line, &l);
+        const char *const value = l.value ? l.value : next, *const end = value + l.value_length;
+        const char *const quote = needs_quotes(value, l.value_length) ? "\"" : "";
+        used += (size_t)sprintf(text + used, "%.*s%s%.*s%s%.*s", (int)(value - line), line, quote, (int)l.value_length,
+                                value, quote, (int)(next - end), end);
     }
     text[used] = '\0';
     return text;

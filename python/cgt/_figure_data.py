@@ -46,18 +46,14 @@ class FigureData:
         self.positions = _floats("positions", positions, ("n", 3))
         count = len(self.positions)
         self.columns: Dict[str, Any] = {}
-        self.radius, self.angstrom, self.origin = 0.0, real("angstrom", angstrom), origin
-        if not 0 <= self.angstrom < np.inf:
-            raise InvalidArgument(f"angstrom: {angstrom}: must be 0, as by default, or above")
+        self.radius, self.angstrom, self.origin = 0.0, _from_0("angstrom", angstrom), origin
         for name, values in ({} if columns is None else columns_of(columns)).items():
             self.columns[str(name)] = _column(str(name), values, count)
         if radius is not None and array_of("radius", radius).ndim:
             self.columns["radius"] = numbers("radius", radius, F4, (count,))
         elif radius is not None:
             self.columns.pop("radius", None)
-            self.radius = real("radius", radius)
-            if not 0 <= self.radius < np.inf:  # C takes these for none
-                raise InvalidArgument(f"radius: {radius}: must be 0, as by default, or above")
+            self.radius = _from_0("radius", radius)
         self.triangles = None if triangles is None else numbers("triangles", triangles, U4, ("m", 3))
         self.bonds = None
         if bonds is not None:
@@ -138,6 +134,14 @@ class FigureData:
 def _floats(name: str, values, shape) -> np.ndarray:
     a = array_of(name, values)
     return numbers(name, a, a.dtype if a.dtype == F4 else F8, shape)
+
+
+def _from_0(name: str, value) -> float:
+    """A number of which C takes 0 and what is below for none."""
+    number = real(name, value)
+    if not 0 <= number < np.inf:
+        raise InvalidArgument(f"{name}: {value}: must be 0, as by default, or above")
+    return number
 
 
 def _of_objects(name: str, a: np.ndarray) -> np.ndarray:
@@ -258,16 +262,16 @@ def _of_frame(f: TrajectoryFrame) -> dict:
 
 
 def _of_ase(atoms) -> dict:
-    columns = {"element": atoms.get_atomic_numbers()}
+    columns, positions = {"element": atoms.get_atomic_numbers()}, atoms.get_positions()
     for name, values in getattr(atoms, "arrays", {}).items():
         if name not in ("numbers", "positions", "momenta") and np.ndim(values) == 1:
             columns["type" if name == "types" else name] = values
     if "momenta" in getattr(atoms, "arrays", {}):
         columns["velocity"] = atoms.get_velocities()
     forces = getattr(getattr(atoms, "calc", None), "results", {}).get("forces")
-    if forces is not None and np.shape(forces) == np.shape(atoms.get_positions()):
+    if forces is not None and np.shape(forces) == np.shape(positions):
         columns.update(zip(("fx", "fy", "fz"), np.transpose(forces)))
-    found = {"positions": atoms.get_positions(), **_usable(columns, len(atoms.get_positions()))}
+    found = {"positions": positions, **_usable(columns, len(positions))}
     edges = getattr(getattr(atoms, "cell", None), "array", None)
     if edges is not None and edges.any():  # sheets and chains have edges of no length
         found.update(cell=edges, pbc=atoms.pbc & edges.any(axis=1))
