@@ -61,15 +61,20 @@ run_release() { # with variables of the environment
     return $status
 }
 
-# Rounds of the driver, each by a seed that no round had before. A failure prints the line that reruns it.
+# Rounds of the driver, each by a seed that no round had before. A failure prints the line that reruns it. What was run
+# is kept after each round: a run that was stopped goes on.
 run_seeds() {
-    local build=build/release round=0 status=0 end=$((SECONDS + seeds_seconds)) seed
+    local build=build/release kept=$night/seeds.seconds spent=0 of='' rounds=0 status=0 begin seed
     scripts/test.sh quick && cmake --build $build --target hits || return 1
-    while [ $SECONDS -lt $end ]; do
-        seed=$(date +%s)$round
+    [ ! -f $kept ] || read -r spent of rounds <$kept
+    [ "$of" = "$code" ] && [ "$spent" -lt "$seeds_seconds" ] || spent=0 rounds=0
+    while [ "$spent" -lt "$seeds_seconds" ]; do
+        begin=$SECONDS seed=$(date +%s)$rounds
         sed -nE 's/^ *\{?\.name = "([a-z]+)",.*/\1/p' tests/driver/profiles.c |
             CGT_TEST_SEED=$seed CGT_TEST_SCALE=4 xargs -P "$(nproc)" -I {} $build/tests/hits {} || status=1
-        echo "$((++round)) rounds, the last one by the seed $seed"
+        spent=$((spent + SECONDS - begin)) rounds=$((rounds + 1))
+        [ $status != 0 ] || echo "$spent $code $rounds" >$kept
+        echo "$rounds rounds, the last one by the seed $seed"
     done
     return $status
 }
