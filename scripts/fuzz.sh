@@ -42,11 +42,12 @@ count_seconds() {
                                          END { printf "%d\n", sum }')
 }
 
-revision=$(scripts/code_hash.sh)
+core=$(scripts/code_hash.sh core) readers=$(scripts/code_hash.sh readers)
 slice=300 # seconds of a run of the fuzzer, after which the account is written
 status=0
 for target in "${targets[@]}"; do
     found=$build/corpus/$target account=$build/$target.seconds
+    case $target in trajectory|formats|mesh) revision=$readers ;; *) revision=$core ;; esac
     mkdir -p "$found"
     spent=0 of='' runs=0
     [ ! -f "$account" ] || read -r spent of runs <"$account"

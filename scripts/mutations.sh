@@ -11,7 +11,8 @@
 #   SURVIVED        all its tests passed: one is missing
 #   does not build  the compiler noticed: correct the table
 #   not here        this machine has none of the tests
-# DIR/results.tsv has the same, and a run that was stopped goes on behind it as long as no file of the tree has changed.
+# DIR/results.tsv has the same. A bug that has a result there is not tried again as long as its row is the same and no
+# file has changed; where only what traces and its tests are concerned, no file of theirs (scripts/code_hash.sh).
 # ID-REGEX selects bugs by their whole id. Exit code 0: every bug was caught or is not for
 # this machine, 1: one was not, 2: the tests fail without a bug.
 # --check checks the table alone: every file exists and has each pattern exactly once.
@@ -95,9 +96,8 @@ cmake "${generator[@]}" -S "$tree" -B "$dir/build" -DCMAKE_BUILD_TYPE=Release "-
 # ---- tests and what builds them ----
 
 # The tests of a row, by name; one that runs once per variant is named without it for all variants.
-tests_of() {
-    ctest --test-dir "$dir/build" -N -R "^($1)(_portable|_$variant)?\$" | sed -nE 's/^ *Test +#[0-9]+: (.*)$/\1/p'
-}
+ctest --test-dir "$dir/build" -N | sed -nE 's/^ *Test +#[0-9]+: (.*)$/\1/p' >"$dir/test_names"
+tests_of() { grep -E "^($1)(_portable|_$variant)?\$" "$dir/test_names" || true; }
 
 # The programs in the build that the commands of tests run; each is a target of that name. ctest shows no command whose
 # program was not built yet.
@@ -133,14 +133,52 @@ failed_tests() {
 # Whether no test has run: the machine lacks what they need.
 are_skipped() { [ "$(grep -cE '^[[:space:]]+[0-9]+ - [^ ]+ \(Skipped\)' "$dir/test.log")" -eq $# ]; }
 
+# ---- what is left ----
+
+# The folder of tests/ that each test is of.
+find "$dir/build/tests" -name CTestTestfile.cmake -exec grep -HE '^add_test\(' {} + |
+    sed -E 's#.*/build/tests/([^/:]+)[^:]*:add_test\((\[=*\[)?([^] ]+).*#\3\t\1#' >"$dir/folders.tsv"
+code=$(scripts/code_hash.sh) core=$(scripts/code_hash.sh core)
+scripts/code_hash.sh --list core >"$dir/core_files"
+
+# A hash of a row and of the files on which its result depends.
+state_of() { # ROW FILE TEST...
+    local row=$1 file=$2 files=$core folder
+    shift 2
+    while read -r folder; do
+        grep -qxF "tests/$folder/CMakeLists.txt" "$dir/core_files" || files=$code
+    done < <(printf '%s\n' "$@" | awk -F '\t' 'NR == FNR { folder[$1] = $2; next } { print folder[$0] }' "$dir/folders.tsv" - | sort -u)
+    grep -qxF "$file" "$dir/core_files" || files=$code
+    sha256sum <<<"$files $row" | cut -c 1-12
+}
+
+result_of() { # ID STATE
+    awk -F '\t' -v id="$1" -v state="$2" '$1 == id && $5 == state { result = $2 } END { print result }' "$dir/results.tsv"
+}
+
+touch "$dir/results.tsv"
+caught=0 survived=0 broken=0 absent=0 left=()
+for row in "${rows[@]}"; do
+    IFS=$'\t' read -r id file pattern replacement tests note <<<"$row"
+    mapfile -t names < <(tests_of "$tests")
+    state=$(state_of "$row" "$file" "${names[@]}")
+    case $(result_of "$id" "$state") in
+    caught) caught=$((caught + 1)) ;;
+    SURVIVED) survived=$((survived + 1)) ;;
+    "not here") absent=$((absent + 1)) ;;
+    *) left+=("$row") ;;
+    esac
+done
+rows=("${left[@]}")
+
 # ---- without a bug ----
 
 echo "mutations.sh: ${#rows[@]} bugs; building what they concern, $(date +%T)"
 mapfile -t all < <(for row in "${rows[@]}"; do cut -f 5 <<<"$row"; done | sort -u |
     while read -r tests; do tests_of "$tests"; done | sort -u)
-[ ${#all[@]} -gt 0 ] || { echo "mutations.sh: none of the tests is here" >&2; exit 2; }
-build_tests "${all[@]}" || { tail -n 30 "$dir/build.log"; echo "mutations.sh: the tree does not build"; exit 2; }
-run_tests "${all[@]}" || { tail -n 30 "$dir/test.log"; echo "mutations.sh: tests fail without a bug"; exit 2; }
+[ ${#rows[@]} -eq 0 ] || [ ${#all[@]} -gt 0 ] || { echo "mutations.sh: none of the tests is here" >&2; exit 2; }
+[ ${#all[@]} -eq 0 ] || build_tests "${all[@]}" || { tail -n 30 "$dir/build.log"; echo "mutations.sh: the tree does not build"; exit 2; }
+[ ${#all[@]} -eq 0 ] || run_tests "${all[@]}" || { tail -n 30 "$dir/test.log"; echo "mutations.sh: tests fail without a bug"; exit 2; }
 
 # ---- with each ----
 
@@ -160,22 +198,15 @@ mutate() {
         { print }' "$1" >"$tree/$1"
 }
 
-caught=0 survived=0 broken=0 absent=0
-state=$(scripts/code_hash.sh)
-[ -f "$dir/results.tsv" ] && [ "$(head -n 1 "$dir/results.tsv")" = "# $state" ] || echo "# $state" >"$dir/results.tsv"
 say() {
     printf '%-15s %-32s %4d s  %s\n' "$1" "$2" "$3" "$4"
-    printf '%s\t%s\t%d\t%s\n' "$2" "$1" "$3" "$4" >>"$dir/results.tsv"
+    printf '%s\t%s\t%d\t%s\t%s\n' "$2" "$1" "$3" "$4" "$state" >>"$dir/results.tsv"
 }
 for row in "${rows[@]}"; do
     IFS=$'\t' read -r id file pattern replacement tests note <<<"$row"
     mapfile -t names < <(tests_of "$tests")
+    state=$(state_of "$row" "$file" "${names[@]}")
     start=$SECONDS
-    case $(awk -F '\t' -v id="$id" '$1 == id { print $2 }' "$dir/results.tsv") in
-    caught) caught=$((caught + 1)); continue ;;
-    SURVIVED) survived=$((survived + 1)); continue ;;
-    "not here") absent=$((absent + 1)); continue ;;
-    esac
     if [ ${#names[@]} -eq 0 ]; then
         say "not here" "$id" 0 "$tests"
         absent=$((absent + 1))

@@ -4,8 +4,9 @@
 #
 # night.sh [--left | --row | PART...]
 # Runs what is too long for each change, part by part, and keeps account of it in build/night: a run that was stopped
-# goes on where it was, as long as the files are the same; texts are the suites' alone, which test them. So does another
-# machine, after the rows of docs/reports/nights.md. Without arguments: all parts that are left.
+# goes on where it was, as long as the files are the same that the part tests: the texts are the suites' alone; seeds and
+# most fuzzers ask for what traces (scripts/code_hash.sh). So does another machine, after the rows of
+# docs/reports/nights.md. Without arguments: all parts that are left.
 #   suite-NAME     scripts/test.sh --whole NAME, for each suite of each platform
 #   cpu-NAMES      the tests of release with CGT_DISABLE_CPU=NAMES: what a CPU without them runs
 #   cpus-N         the tests of release on a machine that claims to have N processors (tests/night/cpus.c)
@@ -34,8 +35,15 @@ touch $account
 
 # Of what files a part's account is.
 tree=$(git ls-tree -r HEAD -- . | grep -v "$table" | sha256sum | cut -c 1-12)
-code=$(scripts/code_hash.sh)
-files_of() { [[ $1 = suite-* ]] && echo "$tree" || echo "$code"; }
+code=$(scripts/code_hash.sh) core=$(scripts/code_hash.sh core) readers=$(scripts/code_hash.sh readers)
+files_of() {
+    case $1 in
+    suite-*) echo "$tree" ;;
+    fuzz-trajectory|fuzz-formats|fuzz-mesh) echo "$readers" ;;
+    seeds|fuzz-*) echo "$core" ;;
+    *) echo "$code" ;;
+    esac
+}
 
 # Files that change meanwhile would be accounted as those of the begin.
 is_as_begun() {
@@ -43,12 +51,21 @@ is_as_begun() {
 }
 
 # The account of these files: this machine's, and that of the table's rows.
-lines() { awk -F '\t' -v tree="$tree" -v code="$code" '$5 == (/^suite-/ ? tree : code)' $account; }
+of_these() { # lines of a part's name, its result, and three columns more, of which the last one has hashes
+    local part rest
+    while IFS=$'\t' read -r part rest; do
+        [[ " ${rest##*$'\t'} " != *" $(files_of "$part") "* ]] || printf '%s\t%s\n' "$part" "$rest"
+    done
+}
+lines() { of_these <$account; }
 lines_of_rows() {
-    awk -F ' [|] ' -v tree="$tree" -v code="$code" '
-        { split($3, files, /[` ]+/); count = split($5, ran, /; /) }
-        { for (k = 1; k <= count; k++) if ((ran[k] ~ /^suite-/ ? files[3] == tree : files[2] == code)) {
-              split(ran[k], part, /[: ]/); print part[1] "\t" (ran[k] ~ /^[^ ]+ [A-Z]+: / ? tolower(part[2]) : "passed") } }' $table
+    awk -F ' [|] ' '/^[|] 2/ {
+        gsub(/`/, "", $3)
+        count = split($5, ran, /; /)
+        for (k = 1; k <= count; k++) {
+            split(ran[k], part, /[: ]/)
+            print part[1] "\t" (ran[k] ~ /^[^ ]+ [A-Z]+: / ? tolower(part[2]) : "passed") "\t\t\t" $3
+        } }' $table | of_these
 }
 result_of() { (lines_of_rows; lines) | awk -F '\t' -v part="$1" '$1 == part { result = $2 } END { print result }'; }
 is_part() { [[ " ${parts[*]} " == *" $1 "* ]]; }
@@ -67,13 +84,13 @@ run_seeds() {
     local build=build/release kept=$night/seeds.seconds spent=0 of='' rounds=0 status=0 begin seed
     scripts/test.sh quick && cmake --build $build --target hits || return 1
     [ ! -f $kept ] || read -r spent of rounds <$kept
-    [ "$of" = "$code" ] && [ "$spent" -lt "$seeds_seconds" ] || spent=0 rounds=0
+    [ "$of" = "$core" ] && [ "$spent" -lt "$seeds_seconds" ] || spent=0 rounds=0
     while [ "$spent" -lt "$seeds_seconds" ]; do
         begin=$SECONDS seed=$(date +%s)$rounds
         sed -nE 's/^ *\{?\.name = "([a-z]+)",.*/\1/p' tests/driver/profiles.c |
             CGT_TEST_SEED=$seed CGT_TEST_SCALE=4 xargs -P "$(nproc)" -I {} $build/tests/hits {} || status=1
         spent=$((spent + SECONDS - begin)) rounds=$((rounds + 1))
-        [ $status != 0 ] || echo "$spent $code $rounds" >$kept
+        [ $status != 0 ] || echo "$spent $core $rounds" >$kept
         echo "$rounds rounds, the last one by the seed $seed"
     done
     return $status
@@ -110,8 +127,8 @@ case ${1:-} in
     found=$(lines | awk -F '\t' '$2 == "failed" { bad[$1] } END { print length(bad) }') # also where it passed later
     left=$(scripts/night.sh --left | paste -sd ' ')
     # shellcheck disable=SC2016 # those are Markdown's
-    printf '| %s | `%s` | `%s %s` | %s, %s cores | %s | %s | %s |\n' "$(date +%F)" "${revision:0:12}" "$code" "$tree" \
-        "$cpu" "$(nproc)" "$ran" \
+    printf '| %s | `%s` | `%s` | %s, %s cores | %s | %s | %s |\n' "$(date +%F)" "${revision:0:12}" \
+        "$core $readers $code $tree" "$cpu" "$(nproc)" "$ran" \
         "${left:-nothing}" "$([ "$found" = 0 ] && echo nothing || echo "$found parts failed")" >>$table
     tail -n 1 $table
     exit ;;
