@@ -249,4 +249,31 @@ TEST(zeros_have_one_sign)
     }
 }
 
+/* A sliver whose normal is right in double, with a -0: a ray that begins on it, whose t takes whole numbers, had +0. */
+TEST(zeros_have_one_sign_for_any_fields)
+{
+    const triangle sliver = {{0, 0, 0}, {-1, 0, -1}, {1, 0, 1 - 0x1p-24f}};
+    const truth_ray rays[2] = {{{0, 0, 0}, {0, 1, 0}, 0, INFINITY}, {{0, -1, 0}, {0, 1, 0}, 0, INFINITY}};
+    FOR_EACH_VARIANT(variant)
+    {
+        cgt_context *context = context_make(1, variant);
+        cgt_scene *scene;
+        assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
+        scene_add_triangles(scene, &sliver, 1);
+        scene_commit(context, scene);
+        for (int k = 0; k < 4; k++) {
+            const cgt_rays from = ray_array(&rays[k % 2], 1);
+            cgt_hits to = hit_array(hit);
+            if (k / 2)
+                to.t = to.u = to.v = NULL;
+            memset(hit, 0, sizeof *hit);
+            assert_int_equal(cgt_trace_rays(scene, &from, &to, NULL), CGT_OK);
+            assert_int_equal(hit->primitive, 0);
+            assert_true(hit->normal[1] == -1 && !signbit(hit->normal[0]) && signbit(hit->normal[2]));
+        }
+        cgt_scene_release(scene);
+        cgt_context_release(context);
+    }
+}
+
 SEEDED_SUITE("test_value_bits", NULL, NULL)

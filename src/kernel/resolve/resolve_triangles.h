@@ -52,8 +52,11 @@ static void resolve_unit_normal(const cgt_triangle *q, const double in_double[3]
         n[a] = in_double[a];
         safe = safe && (fabs(e1[0] * e2[1]) + fabs(e1[1] * e2[0])) * RESOLVE_NORMAL_ERROR <= fabs(n[a]);
     }
-    if (!safe)
+    if (!safe) {
         cgt_exact_normal(q, n);
+        for (int a = 0; a < 3; a++) /* whole numbers have no -0, and double, where it is right, too, may have it */
+            n[a] = n[a] == 0 && in_double[a] == 0 ? in_double[a] : n[a];
+    }
     const double r = 1 / sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int a = 0; a < 3; a++)
         unit[a] = n[a] * r;
