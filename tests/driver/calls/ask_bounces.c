@@ -181,14 +181,17 @@ static bool is_surface(const judge_ray *ray, const oracle_primitive *p, const me
     const oracle_hit *const right = &m->root[m->at];
     double off = 0, place = 0;
     truth_real along = 0;
+    double sizes = 0;
     for (int a = 0; a < 3; a++) {
         const truth_real at = (truth_real)ray->line.org[a] + right->t * (truth_real)ray->line.dir[a];
         off = fmax(off, fabs((double)(right->normal[a] - (truth_real)s->normal[a])));
         place = fmax(place, fabs((double)(at - (truth_real)s->position[a])) - 0x1p-50 * fabs((double)at));
         along += right->normal[a] * (truth_real)ray->line.dir[a];
+        sizes += fabs((double)(right->normal[a] * (truth_real)ray->line.dir[a]));
     }
-    if (p->kind == ORACLE_TRIANGLE) /* the place follows t where the plane is nearly along the ray */
-        return off <= 0x1p-30 && s->front == (along < 0);
+    /* The place follows t where the plane is nearly along the ray; where truth_real tells no side, either is right. */
+    if (p->kind == ORACLE_TRIANGLE)
+        return off <= 0x1p-30 && (s->front == (along < 0) || fabs((double)along) <= 0x1p-60 * sizes);
     const double r = radius_of(p);
     return off <= 0x1p-28 + 0x1p-48 * m->away / r && place <= 0x1p-48 * m->away * (r / m->half + 1) &&
            s->front == (m->at == 0);

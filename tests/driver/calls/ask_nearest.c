@@ -246,9 +246,19 @@ static void count_fast(driver_run *run, uint32_t i, const full_hit *h)
     run->count[COUNT_FAST_OFF] += fmax(way / (double)run->scene.scale, fmax(uv, normal)) > 1e-3;
 }
 
+/* Whether a ray hardly moves along an axis. On a plane that splits a tree it visits one side, and a test of single
+ * precision may find it on the triangle of the other. */
+static bool runs_along_plane(const truth_ray *line)
+{
+    bool runs = false;
+    for (int a = 0; a < 3; a++)
+        runs |= (double)fabsf(line->dir[a]) <= 0x1p-20 * length_of(line->dir);
+    return runs;
+}
+
 /* Whether a ray from well inside a closed mesh, and not at the begin of its range, leaves it at an edge: the watertight
- * test of single precision may leak beside vertices alone, where more than two triangles meet. Far from the origin t
- * may be anything. */
+ * test of single precision may leak beside vertices, where more than two triangles meet, and along planes. Far from the
+ * origin t may be anything. */
 static bool leaks_at_edge(driver_run *run, uint32_t i, const full_hit *h)
 {
     const judge_truth *const right = &run->right[i];
@@ -261,7 +271,8 @@ static bool leaks_at_edge(driver_run *run, uint32_t i, const full_hit *h)
     run->count[COUNT_WATERTIGHT]++;
     if (h->primitive != CGT_INVALID_ID || hit->doubtful || ray->line.t_max < INFINITY ||
         (double)hit->values.t * (1 - 0x1p-8) < (double)ray->line.t_min || way < 0.01 * size ||
-        length_of(ray->line.org) > 1024 * size || !judge_inside(&run->scene, ray->line.org, ray->mask, true))
+        length_of(ray->line.org) > 1024 * size || runs_along_plane(&ray->line) ||
+        !judge_inside(&run->scene, ray->line.org, ray->mask, true))
         return false;
     run->count[COUNT_LEAKS]++;
     return hit->has_values && fmax(fmax(u, v), 1 - u - v) < 0.999;
