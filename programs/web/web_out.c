@@ -17,18 +17,26 @@
 
 /* ---- Settings ----------------------------------------------------------------------------------------------- */
 
-/* Settings by which cgt-render makes the picture that is shown; "": no file is open, NULL: no memory. */
-EMSCRIPTEN_KEEPALIVE const char *web_settings(void)
+/* Settings as the figure has them, by which the picture that is shown is made; "": no file is open. To be freed; NULL:
+ * no memory. */
+static char *get_chosen(void)
 {
     if (web.shown)
         cgt_figure_set_camera(web.figure, &web.camera);
     const size_t length = web.shown ? cgt_figure_get_chosen(web.figure, NULL, NULL, 0) : 0;
+    char *const text = calloc(length + 1, 1);
+    if (text && length)
+        cgt_figure_get_chosen(web.figure, NULL, text, length + 1);
+    return text;
+}
+
+/* Those settings as a file has them. */
+EMSCRIPTEN_KEEPALIVE const char *web_settings(void)
+{
+    char *const chosen = get_chosen();
     free(web.told);
-    web.told = malloc(length + 1);
-    if (web.told)
-        *web.told = '\0';
-    if (web.told && length)
-        cgt_figure_get_chosen(web.figure, NULL, web.told, length + 1);
+    web.told = chosen ? settings_quote(chosen) : NULL;
+    free(chosen);
     return web.told;
 }
 
@@ -36,7 +44,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_settings(void)
 static char *settings_with_files(void)
 {
     const web_files *const f = &web.given;
-    const char *const chosen = web_settings();
+    char *const chosen = get_chosen();
     char *text = NULL;
     size_t size = 0;
     FILE *const to = chosen ? open_memstream(&text, &size) : NULL;
@@ -46,6 +54,7 @@ static char *settings_with_files(void)
         fprintf(to, "mesh = %s\n", f->mesh);
     if (to)
         fputs(chosen, to);
+    free(chosen);
     if (to && fclose(to) == 0)
         return text;
     free(text);

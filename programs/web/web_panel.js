@@ -38,11 +38,12 @@ function createPanel(root, {put, load, say}) {
         return entry;
     }
 
-    // A field's values, and the way back.
+    // A field's values, and the way back. Blanks around a text are its own.
+    const strip = (f, text) => f.row.kind === 'text' ? text : text.trim();
     function read(f) {
         if (f.toggle && !f.toggle.checked)
             return '';
-        const lines = f.entry ? f.entry.value.split('\n').map((line) => line.trim()).filter((line) => line) : [];
+        const lines = f.entry ? f.entry.value.split('\n').map((line) => strip(f, line)).filter((line) => line) : [];
         return lines.length ? lines.join('\n') + '\n' : f.toggle ? '\n' : '';
     }
     function show(f, values) {
@@ -50,7 +51,7 @@ function createPanel(root, {put, load, say}) {
         if (f.toggle)
             f.toggle.checked = values !== '';
         if (f.entry)
-            f.entry.value = values.trim();
+            f.entry.value = strip(f, values.replace(/\n$/, ''));
         if (f.row.repeats)
             f.entry.rows = Math.max(1, Math.min(6, values.split('\n').length - 1));
         if (f.swatch)

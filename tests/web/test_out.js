@@ -276,6 +276,7 @@ async function testSettings(browser, address, page, folder) {
         await style(page, 'paper');
         await put(page, 'bonds', '\n');
         await put(page, 'show', 'element != "H" or x > 0\n');
+        await put(page, 'title', '  set in \n');
         await page.run(`cgtPage.ask('turn', {x: 30, y: 10}, 'picture')`);
         await settle(page);
         await fill(page, {'out-size': ''});
@@ -302,6 +303,10 @@ async function testSettings(browser, address, page, folder) {
         };
         await undo();
         same(await pixels(other), before, 'undone');
+        await put(other, 'title', ' kept ');
+        await give(other, 'few.settings', 'style = plain\n');
+        await undo();
+        assert.strictEqual(await other.run(`document.querySelector('[data-option=title] input').value`), ' kept ');
         await turn();
         const turned = await camera(other);
         await give(other, 'few.settings', 'style = plain\n'); // without a camera
