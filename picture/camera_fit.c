@@ -128,15 +128,14 @@ void cgt_camera_fit_add_box(cgt_camera_fit *fit, const float min[3], const float
 cgt_result cgt_camera_fit_apply(const cgt_camera_fit *fit, cgt_camera *camera)
 {
     cgt_camera fitted;
-    const cgt_result result = cgt_camera_reach_show(&fit->reach, &fit->directions, fit->min, fit->max, &fitted);
+    double across;
+    const cgt_result result =
+        cgt_camera_reach_show(&fit->reach, &fit->directions, fit->min, fit->max, &fitted, &across);
     if (result != CGT_OK)
         return result;
     const double pi = 3.14159265358979323846;
-    double arm[3];
-    for (int c = 0; c < 3; c++)
-        arm[c] = (double)fitted.eye[c] - (double)fitted.target[c];
-    /* what a perspective camera of this angle shows at its target */
-    const float height = (float)(2.0 * sqrt(camera_dot(arm, arm)) * tan((double)fit->directions.fov * pi / 360.0));
+    /* what a perspective camera of this angle shows so far off */
+    const float height = (float)(2.0 * across * tan((double)fit->directions.fov * pi / 360.0));
     if (fit->is_parallel && !(height > 0.0f && isfinite(height)))
         return CGT_ERROR_INVALID_ARGUMENT;
     memcpy(camera->eye, fitted.eye, sizeof camera->eye);

@@ -203,18 +203,24 @@ static inline int camera_choose_target(const camera_directions *fit, const camer
 /* Sets up a perspective camera that shows all of what was added, in the middle of the picture at the start, and all
  * along the orbit, with a margin of 4 percent.
  *   min, max   bounds of it: their centre is as far off as the target, and what an orbit goes around
+ *   across     gets how far off it would be to show what lies across the picture alone: of an orthographic camera the
+ *              eye may be farther, in front of everything; NULL: not wanted
  * Errors: INVALID_ARGUMENT if floats cannot hold such a camera: bounds that are not finite or too large */
 static inline cgt_result cgt_camera_reach_show(const camera_reach *reach, const camera_directions *fit,
-                                               const float min[3], const float max[3], cgt_camera *camera)
+                                               const float min[3], const float max[3], cgt_camera *camera,
+                                               double *across)
 {
-    double target[3], spacing, distance = 0.0;
+    double target[3], spacing, distance = 0.0, widest = 0.0;
     if (camera_choose_target(fit, reach, min, max, target, &spacing))
         return CGT_ERROR_INVALID_ARGUMENT;
     const uint32_t count = fit->plain ? fit->plain : fit->count;
     for (uint32_t k = 0; k < count; k++) { /* at least so far that eye and target differ in float */
         const double beyond = fmax(reach->along[k] - camera_along(fit, k, target), 4.0 * spacing);
         distance = fmax(distance, beyond / fit->gain[k % fit->sides]);
+        widest = k % fit->sides < 4 ? fmax(widest, beyond / fit->gain[k % fit->sides]) : widest;
     }
+    if (across)
+        *across = widest;
     cgt_camera_init(camera);
     camera->fov = fit->fov;
     for (int c = 0; c < 3; c++) {

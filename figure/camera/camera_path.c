@@ -25,7 +25,7 @@ int cgt_camera_path_fit(camera_path *path, const camera_directions *fit, const c
                         const float max[3])
 {
     *path = (camera_path){.orbit_degrees = fit->orbit_degrees};
-    return cgt_camera_reach_show(reach, fit, min, max, &path->start) == CGT_OK ? 0 : -1;
+    return cgt_camera_reach_show(reach, fit, min, max, &path->start, NULL) == CGT_OK ? 0 : -1;
 }
 
 /* ---- Rooms ---------------------------------------------------------------------------------------------------- */
