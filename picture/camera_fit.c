@@ -70,7 +70,8 @@ static int begin_fit(cgt_camera_fit *fit, const cgt_camera *camera, uint32_t wid
     if (!camera || !width || !height || !isfinite(orbit_degrees))
         return -1;
     const cgt_camera seen = cgt_draw_default_view(camera);
-    const float fov = seen.fov > 0.0f ? seen.fov : 45.0f;
+    fit->is_parallel = seen.projection == CGT_PROJECTION_ORTHOGRAPHIC;
+    const float fov = seen.fov > 0.0f && !fit->is_parallel ? seen.fov : 45.0f; /* parallel rays have no angle */
     for (int c = 0; c < 3; c++) {
         view[c] = seen.eye[c] - seen.target[c];
         fit->min[c] = INFINITY;
@@ -78,7 +79,6 @@ static int begin_fit(cgt_camera_fit *fit, const cgt_camera *camera, uint32_t wid
     }
     if (!can_look(view, seen.up) || !(fov < 180.0f))
         return -1;
-    fit->is_parallel = seen.projection == CGT_PROJECTION_ORTHOGRAPHIC;
     cgt_camera_directions_set(&fit->directions, view, seen.up, fov, (double)width / (double)height, orbit_degrees,
                               fit->is_parallel);
     cgt_camera_reach_clear(&fit->reach);

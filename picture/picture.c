@@ -52,7 +52,7 @@ static cgt_result tell_drawing(cgt_picture *p, cgt_result result)
     if (result != CGT_OK)
         cgt_context_get_error_message(p->context, p->message, sizeof p->message);
     if (result == CGT_ERROR_OUT_OF_MEMORY)
-        return fail(p, result, "out of memory for the rays of a picture");
+        return fail(p, result, "out of memory for a picture");
     return result;
 }
 
@@ -141,7 +141,7 @@ static cgt_result choose_options(cgt_picture *p, const cgt_picture_options *opti
     cgt_result result = cgt_picture_check_options(options, &checked, p->message, sizeof p->message);
     if (result == CGT_OK)
         result = set_options(p, &checked);
-    return result == CGT_ERROR_OUT_OF_MEMORY ? fail(p, result, "out of memory for the rays of a picture") : result;
+    return result == CGT_ERROR_OUT_OF_MEMORY ? fail(p, result, "out of memory for a picture") : result;
 }
 
 cgt_result cgt_picture_create(cgt_context *context, const cgt_picture_options *options, cgt_picture **picture)

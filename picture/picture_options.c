@@ -52,7 +52,7 @@ static cgt_result check_light(cgt_picture_light *l, uint32_t i, char *message, s
         return picture_refuse(message, size, "light %u: colour %g, %g, %g: 0 to 1e30", i, (double)l->color[0],
                               (double)l->color[1], (double)l->color[2]);
     if (!is_in(l->size, 0.0f, lamp ? 1e30f : 89.0f))
-        return picture_refuse(message, size, "light %u: size %g: 0 or more, of a direction at most 89 degrees", i,
+        return picture_refuse(message, size, "light %u: size %g: 0 to 1e30, of a direction at most 89 degrees", i,
                               (double)l->size);
     return CGT_OK;
 }

@@ -124,7 +124,8 @@ typedef struct cgt_picture_lighting {
     uint32_t light_count; /* at most CGT_PICTURE_MAX_LIGHTS */
     cgt_picture_light lights[CGT_PICTURE_MAX_LIGHTS];
     float sky;  /* light from all sides, which ambient occlusion dims: 0 or more */
-    float head; /* light from the eye, without shadows: 0 or more */
+    /* Light from the eye, without shadows; of it, too, ambient occlusion takes up to 0.6: 0 or more. */
+    float head;
     /* Rays of a pixel to the sky, at most CGT_PICTURE_MAX_RAYS; 0 (default): no ambient occlusion. The rays of
      * antialiasing share them, rounded up: each has one at least. With antialias 4, pixels that go on as one ray take
      * half as many more. */
@@ -296,7 +297,8 @@ CGT_API void cgt_camera_get_key_light(const cgt_camera *camera, uint32_t width, 
 /* Turns the eye about the axis through the target along `up`, counter-clockwise seen from the tip of up. */
 CGT_API void cgt_camera_orbit(cgt_camera *camera, double degrees);
 
-/* Moves a camera so that it shows all of some spheres, in the middle of the picture, with a margin of 4 percent.
+/* Moves a camera so that it shows all of some spheres with a margin of 4 percent, in the middle between the two edges
+ * that they come nearest to.
  *   camera          its direction, up, angle and projection stay; gets eye and target, and height if it is orthographic
  *   width, height   pixels
  *   spheres         as of cgt_scene_set_spheres. What is not finite or has a negative radius is left out

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 
 #include "draw/draw.h"
+#include "vector_range.h"
 
 enum { ROWS = 16 }; /* of rays that go to a light together */
 
@@ -213,18 +214,18 @@ static void append_hit(light_rays *r, const drawing *d, uint32_t x, uint32_t y, 
     const cgt_picture_light *l = r->light;
     const float(*disc)[2] = (const float(*)[2])(r->disc + (size_t)run[(y & 3) * 4 + (x & 3)] * r->run + r->first);
     const int lamp = l->light.kind == CGT_LIGHT_POINT;
-    float org[3], dir[3], axis[3], a[3], b[3], length = 0.0f;
+    float org[3], dir[3], axis[3], a[3], b[3];
     draw_ray(d, x, y, org, dir);
     for (int c = 0; c < 3; c++) {
         org[c] += d->t[element] * dir[c];
         axis[c] = lamp ? l->light.position[c] - org[c] : l->light.position[c];
-        length += axis[c] * axis[c];
     }
-    length = sqrtf(length);
+    const int exponent = picture_bring_near(axis);
+    const float length = sqrtf(picture_square(axis));
     for (int c = 0; c < 3; c++)
         axis[c] = length > 0.0f ? axis[c] / length : c == 2 ? 1.0f : 0.0f;
     basis(axis, a, b);
-    const float radius = lamp ? l->size : tanf(l->size * pi / 180.0f), reach = lamp ? length : 1.0f;
+    const float radius = lamp ? l->size : tanf(l->size * pi / 180.0f), reach = lamp ? ldexpf(length, exponent) : 1.0f;
     const size_t first = (size_t)r->hits * r->samples;
     for (uint32_t i = 0; i < r->samples; i++) {
         for (int c = 0; c < 3; c++) {
@@ -244,17 +245,18 @@ static void append_hit(light_rays *r, const drawing *d, uint32_t x, uint32_t y, 
 static int is_averted(const drawing *d, const cgt_picture_light *l, size_t element, uint32_t x, uint32_t y)
 {
     static const float steepest = -0.436f; /* minus the sine of that */
-    float org[3], dir[3], towards = 0.0f, square = 0.0f;
+    float org[3], dir[3], to[3], towards = 0.0f;
     if (draw_look(d, d->geometry[element])->is_triangles)
         return 0;
     draw_ray(d, x, y, org, dir);
     for (int c = 0; c < 3; c++) {
         const float at = l->light.kind == CGT_LIGHT_POINT ? org[c] + d->t[element] * dir[c] : 0.0f;
-        const float to = l->light.position[c] - at;
-        towards += d->normal[c][element] * to;
-        square += to * to;
+        to[c] = l->light.position[c] - at;
     }
-    return towards <= 0.0f && towards * towards >= steepest * steepest * square;
+    picture_bring_near(to);
+    for (int c = 0; c < 3; c++)
+        towards += d->normal[c][element] * to[c];
+    return towards <= 0.0f && towards * towards >= steepest * steepest * picture_square(to);
 }
 
 static cgt_result trace_strip(drawing *d, const cgt_scene *scene, light_rays *r, uint32_t y0, float *reach)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "draw/draw_store.h"
+#include "vector_range.h"
 
 enum { RUN = DRAW_BLOCK / 4 }; /* pixels, of up to four rays along the row; short, so that many runs hit nothing */
 
@@ -88,13 +89,14 @@ static void find_lambert_of_point(ray_row *r, const float light[3], uint32_t x, 
     const drawing *const d = r->drawing;
     const float *const t = d->t + r->first;
     for (uint32_t i = 0; i < r->count; i++) {
-        float org[3], dir[3], cosine = 0.0f, square = 0.0f;
+        float org[3], dir[3], towards[3], cosine = 0.0f;
         draw_ray(d, x + i, y, org, dir);
-        for (int c = 0; c < 3; c++) {
-            const float towards = light[c] - (org[c] + t[i] * dir[c]);
-            cosine += r->normal[c][i] * towards;
-            square += towards * towards;
-        }
+        for (int c = 0; c < 3; c++)
+            towards[c] = light[c] - (org[c] + t[i] * dir[c]);
+        picture_bring_near(towards);
+        for (int c = 0; c < 3; c++)
+            cosine += r->normal[c][i] * towards[c];
+        const float square = picture_square(towards);
         cosine = square > 0.0f ? cosine / sqrtf(square) : 0.0f;
         r->share[i] = cosine > 0.0f ? cosine : 0.0f;
     }

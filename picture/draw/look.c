@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "refuse.h"
+#include "vector_range.h"
 
 static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -21,8 +22,10 @@ static int mix_normal(const picture_look *l, uint32_t primitive, float u, float 
     const float share[3] = {1.0f - u - v, u, v};
     n[0] = n[1] = n[2] = 0.0f;
     for (int k = 0; k < 3; k++) {
-        const float *normal = l->of.vertex_normals + 3 * (size_t)vertex[k];
-        const float square = dot(normal, normal), scale = square > 0.0f ? share[k] / sqrtf(square) : 0.0f;
+        float normal[3];
+        memcpy(normal, l->of.vertex_normals + 3 * (size_t)vertex[k], sizeof normal);
+        picture_bring_near(normal);
+        const float square = picture_square(normal), scale = square > 0.0f ? share[k] / sqrtf(square) : 0.0f;
         for (int c = 0; c < 3; c++)
             n[c] += normal[c] * scale;
     }

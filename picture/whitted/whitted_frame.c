@@ -26,8 +26,10 @@ static const char *check_material(const cgt_material *m)
         return "the colour of a material must be from 0 to 1";
     if (m->kind == CGT_MATERIAL_GLASS && !(m->index >= 1.0f && m->index <= 100.0f))
         return "the index of refraction of glass must be from 1 to 100";
-    if (!in_range(m->absorption, 3, INFINITY) || !in_range(&m->gloss, 1, 1e6f))
-        return "absorption and gloss of a material must be 0 or more";
+    if (!in_range(m->absorption, 3, INFINITY))
+        return "the absorption of a material must be 0 or more";
+    if (!in_range(&m->gloss, 1, 1e6f))
+        return "the gloss of a material must be from 0 to 1e6";
     return NULL;
 }
 

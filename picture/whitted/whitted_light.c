@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "vector_range.h"
 #include "whitted/whitted_internal.h"
 
 static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -74,7 +75,8 @@ static uint32_t set_ranges(whitted_memory *m, const cgt_light *light, uint32_t c
         whitted_lit *lit = &m->lit[i];
         float to[3];
         towards(light, lit->position, to);
-        const float length = sqrtf(dot(to, to)), facing = dot(to, lit->normal);
+        const int exponent = picture_bring_near(to);
+        const float length = ldexpf(sqrtf(picture_square(to)), exponent), facing = dot(to, lit->normal);
         lit->t_min = length > 0.0f ? lit->reach / length : 0.0f;
         lit->t_max = !(facing > 0.0f) ? -1.0f : light->kind == CGT_LIGHT_POINT ? 1.0f : INFINITY;
         on += facing > 0.0f;
@@ -87,7 +89,8 @@ static void add_light(const whitted_light *light, const whitted_lit *lit, float 
 {
     float to[3], half[3];
     towards(&light->light, lit->position, to);
-    const float length = sqrtf(dot(to, to));
+    picture_bring_near(to);
+    const float length = sqrtf(picture_square(to));
     const float facing = dot(to, lit->normal) / length;
     for (int a = 0; a < 3; a++)
         half[a] = to[a] / length + lit->eye[a];

@@ -157,7 +157,7 @@ TEST(heights_are_those_of_balls_of_any_size)
 /* A row along the view: the eye is in front of it, however small the angle, and the height is that of a ball. */
 TEST(depth_does_not_add_to_heights)
 {
-    static const float ball[3][3] = {{0, 0, -50}, {0, 0, 0}, {0, 0, 50}}, fovs[3] = {1.0f, 40.0f, 120.0f};
+    static const float ball[3][3] = {{0, 0, -50}, {0, 0, 0}, {0, 0, 50}}, fovs[3] = {1.0f, 40.0f, 200.0f};
     const cgt_spheres spheres = {.count = 3, .centers = cgt_floats(ball[0], 0), .radius = 0.5f};
     for (int i = 0; i < 3; i++) {
         cgt_camera camera = {.eye = {0, 0, 5}, .projection = CGT_PROJECTION_ORTHOGRAPHIC, .fov = fovs[i]};

@@ -259,6 +259,55 @@ TEST(soft_shadows_have_penumbras)
     tear_down(&s);
 }
 
+/* Squares of lengths leave the range of float long before lengths do: a power of two changes no byte. */
+TEST(lamps_shine_in_any_unit)
+{
+    static const int exponents[] = {0, -100, -64, 64, 96};
+    static uint8_t first[3 * PIXELS];
+    static stage s;
+    for (int way = 0; way < 4; way++)
+        for (size_t k = 0; k < TEST_COUNT(exponents); k++) {
+            const float unit = ldexpf(1.0f, exponents[k]);
+            float corner[12], normals[12];
+            cgt_camera camera;
+            set_camera(&camera);
+            set_up(&s, 1, NULL);
+            for (int i = 0; i < 12; i++) {
+                corner[i] = floor_corner[i] * unit;
+                normals[i] = i % 3 == 2 ? 3.0f * unit : unit;
+            }
+            for (int c = 0; c < 4; c++)
+                s.ball[0][c] *= unit;
+            s.ball[1][0] = 5.0f * unit;
+            s.ball[1][3] = unit;
+            camera.eye[2] *= unit;
+            camera.height *= unit;
+            set_opaque(&s, 0);
+            const cgt_triangles ground = {.count = 2,
+                                          .indices = cgt_uint32s(floor_index, 0),
+                                          .vertex_count = 4,
+                                          .vertices = cgt_floats(corner, 0)};
+            assert_int_equal(cgt_scene_set_triangles(s.scene, &(uint32_t){FLOOR}, &ground), CGT_OK);
+            assert_int_equal(cgt_scene_commit(s.scene), CGT_OK);
+            s.settings.shading = way / 2 ? CGT_SHADING_BOUNCES : CGT_SHADING_FULL;
+            s.settings.bounces.limit = way / 2 ? 2 : 0;
+            s.settings.lighting.lights[0] = (cgt_picture_light){.light = {.position = {7 * unit, unit, 9 * unit}},
+                                                                .color = {1.0f, 1.0f, 1.0f},
+                                                                .size = way == 1 ? unit : 0.0f,
+                                                                .shadows = true};
+            const cgt_look both[2] = {looks[0],
+                                      {.color = {0.5f, 0.5f, 0.5f}, .vertex_normals = normals, .sheet = true}};
+            const cgt_image image = image_of(&s);
+            assert_int_equal(cgt_picture_create(s.context, &s.settings, &s.picture), CGT_OK);
+            assert_int_equal(cgt_picture_draw(s.picture, s.scene, &camera, both, 2, &image, NULL), CGT_OK);
+            if (k == 0)
+                memcpy(first, s.rgb, sizeof first);
+            assert_memory_equal(first, s.rgb, sizeof first);
+            assert_true(s.rgb[3 * at(-6.1f, 6.1f)] > 50);
+            tear_down(&s);
+        }
+}
+
 TEST(occlusion_darkens_what_is_near)
 {
     static stage s;
