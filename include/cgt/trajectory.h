@@ -206,11 +206,12 @@ CGT_API size_t cgt_trajectory_get_error_message(const cgt_trajectory *t, char *t
 /* Sorts paths as a run has them: numbers in them by their values, dump.9.gz before dump.10.gz. */
 CGT_API void cgt_trajectory_sort_series(const char **paths, size_t count);
 
-/* Changes options->follow of a file that was opened with it above 0; call cgt_trajectory_rewind before the next
- * read. */
+/* Changes options->follow of a file that was opened with it above 0, NaN and less than 0 to 0; call
+ * cgt_trajectory_rewind before the next read. */
 CGT_API void cgt_trajectory_set_follow(cgt_trajectory *t, double seconds);
 
-/* Changes options->origin, or gets the one that counts; call cgt_trajectory_rewind before the next read. */
+/* Changes options->origin, or gets the one that counts; call cgt_trajectory_rewind before the next read, which refuses
+ * one that is not finite. */
 CGT_API void cgt_trajectory_set_origin(cgt_trajectory *t, const double origin[3]);
 CGT_API void cgt_trajectory_get_origin(const cgt_trajectory *t, double origin[3]);
 

@@ -308,6 +308,9 @@ static int rewind_file(cgt_trajectory *t)
 {
     char reason[256];
     const int failed = t->failed;
+    for (int a = 0; a < 3; a++)
+        if (!isfinite(t->options.origin[a]))
+            return trajectory_fail(t, 0, "the origin must be finite");
     if (t->path_at > 0) {
         forget_frames(t);
         return trajectory_open_file(t, 0);
@@ -354,8 +357,8 @@ void cgt_trajectory_set_follow(cgt_trajectory *t, double seconds)
 {
     if (t == NULL)
         return;
-    t->options.follow = seconds;
-    t->input.follow = t->path_at + 1 == t->path_count ? seconds : 0.0;
+    t->options.follow = seconds > 0.0 ? seconds : 0.0;
+    t->input.follow = t->path_at + 1 == t->path_count ? t->options.follow : 0.0;
 }
 
 cgt_result cgt_trajectory_count_frames(cgt_trajectory *t, uint64_t *frames)

@@ -99,7 +99,7 @@ static int is_stopped(const trajectory_input *in) { return in->stop != NULL && i
 static int wait_for_more(const trajectory_input *in, double *waited)
 {
     const struct timespec pause = {0, 50000000};
-    if (*waited >= in->follow || is_stopped(in))
+    if (!(*waited < in->follow) || is_stopped(in))
         return 0;
     nanosleep(&pause, NULL);
     *waited += 0.05;

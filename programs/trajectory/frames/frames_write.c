@@ -8,6 +8,7 @@
 #include <cgt/trajectory.h>
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -89,6 +90,9 @@ static int start(cgt_trajectory_writer *w, const double origin[3], uint32_t tria
 {
     static const double nowhere[3];
     const uint32_t has_origin = origin != NULL && memcmp(origin, nowhere, sizeof nowhere) != 0;
+    for (int axis = 0; axis < 3 && has_origin; axis++)
+        if (!isfinite(origin[axis]))
+            return fail(w, CGT_ERROR_INVALID_ARGUMENT, w->path, "the origin must be finite");
     errno = 0;
     w->file = fopen(w->path, "wb");
     if (w->file == NULL)

@@ -134,6 +134,34 @@ TEST(frames_carry_it)
     assert_int_equal(fclose(file), 0);
 }
 
+/* What has no result says so at the next call that has one; a wait of NaN seconds ends. */
+TEST(later_origins_are_finite)
+{
+    static const double wrong[2][3] = {{NAN, 0.0, 0.0}, {0.0, 0.0, -INFINITY}}, right[3] = {1.0, 0.0, 0.0};
+    static const uint32_t index[3] = {0, 1, 2};
+    char error[1024];
+    cgt_trajectory_frame frame;
+    cgt_trajectory *const t = open_at(data_path("water.gro"), NULL);
+    for (int k = 0; k < 2; k++) {
+        cgt_trajectory_writer *w;
+        cgt_trajectory_set_origin(t, wrong[k]);
+        assert_int_equal(told_rewind(t, error, sizeof error), -1);
+        assert_non_null(strstr(error, "the origin must be finite"));
+        assert_int_equal(k ? cgt_trajectory_writer_open(scratch_path(".frames"), wrong[k], &w)
+                           : cgt_trajectory_writer_open_triangles(scratch_path(".frames"), wrong[k], index, 1, &w),
+                         CGT_ERROR_INVALID_ARGUMENT);
+        cgt_trajectory_writer_get_error_message(w, error, sizeof error);
+        assert_non_null(strstr(error, "the origin must be finite"));
+        cgt_trajectory_writer_close(w);
+    }
+    cgt_trajectory_set_origin(t, right);
+    cgt_trajectory_set_follow(t, NAN);
+    assert_int_equal(told_rewind(t, error, sizeof error), 0);
+    while (told_read(t, &frame, error, sizeof error) == 1)
+        assert_true(frame.origin[0] == 1.0);
+    cgt_trajectory_close(t);
+}
+
 TEST(origins_are_finite)
 {
     char error[1024];
