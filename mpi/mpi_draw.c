@@ -102,6 +102,14 @@ static cgt_result set_picture(cgt_mpi *m, const cgt_picture_options *options)
     return result;
 }
 
+/* Whether a leader that keeps its rows has room for all that rank 0 wants. */
+static bool has_planes(const mpi_drawing *d)
+{
+    const mpi_request *const a = &d->asked;
+    const cgt_image *const i = &d->image;
+    return (i->bytes || !a->channels) && (i->alpha || !a->has_alpha) && (i->linear || !a->has_linear);
+}
+
 /* The first row of a leader. Rows are shared evenly; rank 0 has one at least, others may have none. */
 static uint32_t first_row_of(const cgt_mpi *m, uint32_t height, int leader)
 {
@@ -179,6 +187,8 @@ static cgt_result draw(cgt_mpi *m, const cgt_picture_options *options, const cgt
             d->image = *image;
         cgt_mpi_take_processors(m);
         result = ask(m, d);
+        if (result == CGT_OK && stays && !has_planes(d))
+            result = cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT, "a leader's image lacks a kind that rank 0's has");
         if (result == CGT_OK)
             result = draw_rows(m, d);
         cgt_mpi_return_processors(m);

@@ -89,7 +89,7 @@ static uint64_t numbers_of(const cgt_mpi_geometry *g)
     return numbers;
 }
 
-/* Collective; the same result on all ranks. */
+/* Collective. Ids that are out of range fail on the ranks that have them alone. */
 static cgt_result find_totals(cgt_mpi *m, uint32_t i, const cgt_mpi_geometry *g, mpi_totals *totals)
 {
     const uint64_t own[2] = {cgt_mpi_primitives_of(g), cgt_mpi_vertices_of(g)}, numbers = numbers_of(g);
@@ -109,17 +109,18 @@ static cgt_result find_totals(cgt_mpi *m, uint32_t i, const cgt_mpi_geometry *g,
                             "geometry %u: ranks differ in its kind, its look or its mask, or in "
                             "which arrays it has",
                             i);
+    const uint64_t room = ROOM_OF_IDS + 4 * sum[0];
     if (!(totals->parts & PART_IDS))
         totals->numbers = sum[0];
+    else if (totals->numbers > room) /* told by the ranks that have them */
+        return numbers <= room ? CGT_OK
+                               : cgt_mpi_fail(m, CGT_ERROR_INVALID_ARGUMENT,
+                                              "geometry %u: ids up to %llu, and %llu primitives: each number takes "
+                                              "memory, so that ids are at most 4 times as many, and 1,048,576",
+                                              i, (unsigned long long)numbers - 1, (unsigned long long)sum[0]);
     if (totals->numbers >= UINT32_MAX || sum[1] >= UINT32_MAX)
         return cgt_mpi_fail(m, CGT_ERROR_TOO_LARGE, "geometry %u: %llu numbers and %llu vertices: each below 2^32 - 1",
                             i, (unsigned long long)totals->numbers, (unsigned long long)sum[1]);
-    if (totals->numbers > ROOM_OF_IDS + 4 * sum[0])
-        return cgt_mpi_fail(
-            m, CGT_ERROR_INVALID_ARGUMENT,
-            "geometry %u: ids up to %llu, and %llu primitives: each number takes memory, so that ids are at "
-            "most 4 times as many, and 1,048,576",
-            i, (unsigned long long)totals->numbers - 1, (unsigned long long)sum[0]);
     return CGT_OK;
 }
 

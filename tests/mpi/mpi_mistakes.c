@@ -97,6 +97,8 @@ static void gather_badly(void)
     } while (0)
     MISTAKE(ids[2] = ids[3], "two primitives have the id");
     MISTAKE(ids[0] = 4000000000u, "ids up to 4000000000");
+    MISTAKE(ids[0] = 4000000000u, name);
+    MISTAKE(ids[0] = CGT_INVALID_ID, "ids up to 4294967295");
     MISTAKE(s.spheres.centers.data = NULL, name);
     MISTAKE(s.spheres.centers.stride = 2, "stride");
     MISTAKE(s.triangles.indices = cgt_uint32s(wrong_index, 0), "geometry 1: vertex 4 of primitive 0: there are 4");
@@ -151,6 +153,30 @@ static void draw_badly(void)
         fail("a picture of nothing", "failed");
 }
 
+/* Each rank keeps its rows; the last one has no room for them. */
+static void keep_badly(void)
+{
+    static uint8_t bytes[3 * 8 * 8], alpha[8 * 8];
+    const cgt_mpi_options each = {.ranks_per_leader = 1};
+    const cgt_image image = {.bytes = bytes}, other = {.alpha = alpha};
+    cgt_picture_options options;
+    cgt_camera camera;
+    uint32_t first, rows;
+    shapes s;
+    cgt_picture_options_init(&options);
+    options.width = options.height = 8;
+    cgt_camera_init(&camera);
+    set_up(&s);
+    if (cgt_mpi_create(MPI_COMM_WORLD, &each, &mpi) != CGT_OK || cgt_mpi_gather(mpi, s.geometry, s.count) != CGT_OK)
+        fail("a leader on each rank", "failed");
+    if (ranks > 1)
+        expect(cgt_mpi_draw_rows(mpi, &options, &camera, rank == ranks - 1 ? &other : &image, &first, &rows),
+               CGT_ERROR_INVALID_ARGUMENT, "image lacks a kind");
+    if (cgt_mpi_draw_rows(mpi, &options, &camera, &image, &first, &rows) != CGT_OK)
+        fail("good rows", "failed");
+    cgt_mpi_release(mpi);
+}
+
 /* Whether joining fails, and the job tells why. */
 static int is_refused(MPI_Comm joined, const cgt_mpi_options *options, const char *word)
 {
@@ -200,6 +226,7 @@ int main(int argc, char **argv)
     gather_badly();
     draw_badly();
     cgt_mpi_release(mpi);
+    keep_badly();
     MPI_Finalize();
     return 0;
 }
