@@ -30,12 +30,6 @@ typedef struct data_state {
 
 /* ---- Header ------------------------------------------------------------------------------------------------- */
 
-static int begins_with_letter(text_span line)
-{
-    return line.begin < line.end &&
-           ((*line.begin >= 'A' && *line.begin <= 'Z') || (*line.begin >= 'a' && *line.begin <= 'z'));
-}
-
 /* Reads the `count` numbers that a line of the header begins with. */
 static int take_numbers(cgt_trajectory *t, text_span *line, int count, double *values)
 {
@@ -187,31 +181,13 @@ static int read_bond(cgt_trajectory *t, text_span line)
                : 1;
 }
 
-/* Whether a line that begins with a letter is a keyword: rows may begin with the label of a type, but have numbers, or
- * stand right below a keyword. */
-static int is_keyword(text_span line, int is_first)
+/* Reads the rows of a section up to the next keyword, which *line then has: 1, 0 at the end of the file, -1. is_first:
+ * no row of it was read before. */
+static int read_rows(cgt_trajectory *t, text_span *line, int is_first, int (*take)(cgt_trajectory *t, text_span line))
 {
-    static const char *const known[] = {"Atoms",     "Velocities", "Masses", "Bonds",     "Angles", "Dihedrals",
-                                        "Impropers", "Ellipsoids", "Lines",  "Triangles", "Bodies"};
-    text_span rest = lammps_without_comment(line), last = rest, word;
-    int has_number = 0;
-    double number;
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
-        if (text_is(rest, known[i]))
-            return 1;
-    while (text_word(&rest, &word)) {
-        has_number |= text_double(word, &number);
-        last = word;
-    }
-    return text_is(last, "Coeffs") || text_is(last, "Labels") || (!has_number && !is_first);
-}
-
-/* Reads the rows of a section up to the next keyword, which *line then has: 1, 0 at the end of the file, -1. */
-static int read_rows(cgt_trajectory *t, text_span *line, int (*take)(cgt_trajectory *t, text_span line))
-{
-    for (int is_first = 1;;) {
+    while (1) {
         const int status = trajectory_line(t, line);
-        if (status <= 0 || (begins_with_letter(*line) && is_keyword(*line, is_first)))
+        if (status <= 0 || lammps_is_keyword(*line, is_first))
             return status;
         const text_span words = lammps_without_comment(*line);
         is_first &= words.begin == words.end;
@@ -274,7 +250,7 @@ static int read_section(cgt_trajectory *t, text_span *line)
         (read_atoms(t, (text_span){copy, copy + strlen(copy)}) < 0 || bond_list_index(t, &s->bond, s->atoms) < 0))
         return -1;
     s->has_atoms |= is_atoms;
-    return read_rows(t, line, take);
+    return read_rows(t, line, 1, take);
 }
 
 /* ---- The format --------------------------------------------------------------------------------------------- */
@@ -304,7 +280,8 @@ static int read_head(cgt_trajectory *t, text_span *line)
     bond_list_clear(&s->bond);
     int status = trajectory_line(t, line); /* the title */
     while (status > 0 && (status = trajectory_line(t, line)) > 0) {
-        if (begins_with_letter(*line))
+        const int is_indented = *line->begin == ' ' || *line->begin == '\t';
+        if (lammps_is_keyword(*line, is_indented)) /* other words behind a blank are remarks */
             return 1;
         const text_span words = lammps_without_comment(*line);
         if (words.begin < words.end && read_header_line(t, words) < 0)

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Which columns atoms have in LAMMPS data files (documentation of LAMMPS, read_data, "Atoms section"). */
+ * The words of LAMMPS data files: keywords of sections, and which columns atoms have (documentation of LAMMPS, read_data,
+ * "Atoms section"). */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/lammps/lammps_parts.h"
 
@@ -15,6 +16,26 @@ text_span lammps_without_comment(text_span line)
     line.end = mark != NULL ? mark : line.end;
     text_trim(&line);
     return line;
+}
+
+int lammps_is_keyword(text_span line, int is_first)
+{
+    static const char *const known[] = {"Atoms",     "Velocities", "Masses", "Bonds",     "Angles", "Dihedrals",
+                                        "Impropers", "Ellipsoids", "Lines",  "Triangles", "Bodies"};
+    text_span rest = lammps_without_comment(line), last = rest, word;
+    int has_number = 0;
+    double number;
+    if (rest.begin == rest.end ||
+        !((*rest.begin >= 'A' && *rest.begin <= 'Z') || (*rest.begin >= 'a' && *rest.begin <= 'z')))
+        return 0;
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+        if (text_is(rest, known[i]))
+            return 1;
+    while (text_word(&rest, &word)) {
+        has_number |= text_double(word, &number);
+        last = word;
+    }
+    return text_is(last, "Coeffs") || text_is(last, "Labels") || (!has_number && !is_first);
 }
 
 typedef struct data_style {

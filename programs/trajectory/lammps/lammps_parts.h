@@ -53,6 +53,10 @@ void lammps_set_box(const cgt_trajectory *t, cgt_trajectory_frame *frame);
 /* A line up to its comment, without blanks at the ends. */
 text_span lammps_without_comment(text_span line);
 
+/* Whether a line is the keyword of a section, which blanks may stand before (TopoTools writes one). It begins with a
+ * letter. So may rows, with the label of a type, but they have numbers, or stand right below a keyword: is_first. */
+int lammps_is_keyword(text_span line, int is_first);
+
 /* The columns of the atoms, apart by blanks: by the style behind the keyword ("Atoms # full") or, with a warning, by
  * the first row, which also tells whether image flags follow. Returns 1 or -1. */
 enum { LAMMPS_COLUMNS_SIZE = 96 };
