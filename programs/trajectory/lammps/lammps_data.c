@@ -3,7 +3,7 @@
  *
  * LAMMPS data files, as write_data and read_data know them: a title, a header (counts and box), then sections of rows,
  * each under a keyword and a blank line. One frame. Which columns the atoms have tells the style behind their keyword,
- * "Atoms # full"; where it is missing, their number. Bonds refer to ids, in any order. */
+ * "Atoms # full"; where it is missing, what the rows allow. Bonds refer to ids, in any order. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/atoms/trajectory_bonds.h"
 #include "trajectory/atoms/trajectory_sites.h"
@@ -19,6 +19,10 @@
 typedef struct data_state {
     lammps_frame frame; /* first: lammps_columns.h */
     uint32_t atoms, bonds;
+    uint64_t types;      /* of atoms, by the header; 0: not told */
+    uint64_t left_out;   /* rows of atoms beyond those that the header counts */
+    uint64_t first_left; /* line of the first of them */
+    uint64_t lost_bonds; /* of atoms that were left out */
     double bounds[3][4]; /* low, high, tilt of each axis */
     double vectors[3][4];
     int is_general;
@@ -90,6 +94,8 @@ static int read_header_line(cgt_trajectory *t, text_span words)
         return is_box;
     text_word(&rest, &word);
     text_trim(&rest);
+    if (text_is(rest, "atom types") && !text_u64(word, UINT64_MAX, &s->types))
+        s->types = 0;
     if (text_is(rest, "atoms"))
         return trajectory_parse_count(t, word, &s->atoms);
     return text_is(rest, "bonds") ? trajectory_parse_count(t, word, &s->bonds) : 1;
@@ -118,16 +124,11 @@ static void make_box(data_state *s)
 static int read_atoms(cgt_trajectory *t, text_span keyword)
 {
     data_state *const s = t->state;
-    text_span first = {NULL, NULL};
     cgt_trajectory_frame unused;
-    char heading[128], columns[LAMMPS_COLUMNS_SIZE];
+    char heading[LAMMPS_HEADING_SIZE], columns[LAMMPS_COLUMNS_SIZE];
     snprintf(heading, sizeof heading, "%.*s", (int)text_length(keyword), keyword.begin);
-    if (trajectory_line_inside(t, &first, "before the atoms") < 0)
-        return -1;
-    if (lammps_data_columns(t, (text_span){heading, heading + strlen(heading)}, first, columns) < 0)
-        return -1;
-    text_reader_back(&t->text);
-    if (lammps_plan_columns(t, (text_span){columns, columns + strlen(columns)}) < 0)
+    if (lammps_data_columns(t, (text_span){heading, heading + strlen(heading)}, s->types, columns) < 0 ||
+        lammps_plan_columns(t, (text_span){columns, columns + strlen(columns)}) < 0)
         return -1;
     s->frame.plan.open_ended = 1; /* comments */
     s->has_atoms = 1;
@@ -236,7 +237,7 @@ static int read_section(cgt_trajectory *t, text_span *line)
         take = label_row;
     }
     take = text_is(words, "Velocities") && s->has_atoms ? velocity_row : take;
-    char copy[128];
+    char copy[LAMMPS_HEADING_SIZE];
     snprintf(copy, sizeof copy, "%.*s", (int)text_length(keyword), keyword.begin);
     text_span blank;
     const int status = trajectory_line(t, &blank);
@@ -267,6 +268,7 @@ static int read_head(cgt_trajectory *t, text_span *line)
 {
     data_state *const s = t->state;
     s->atoms = s->bonds = 0;
+    s->types = s->left_out = s->lost_bonds = 0;
     s->frame.has_box = s->is_general = s->has_atoms = 0;
     row_plan_clear(&s->frame.plan);
     memset(s->frame.unwrapped, 0, sizeof s->frame.unwrapped);

@@ -58,8 +58,9 @@ text_span lammps_without_comment(text_span line);
 int lammps_is_keyword(text_span line, int is_first);
 
 /* The columns of the atoms, apart by blanks: by the style behind the keyword ("Atoms # full") or, with a warning, by
- * the first row, which also tells whether image flags follow. Returns 1 or -1. */
-enum { LAMMPS_COLUMNS_SIZE = 96 };
-int lammps_data_columns(cgt_trajectory *t, text_span keyword, text_span first, char columns[LAMMPS_COLUMNS_SIZE]);
+ * the next rows, which also tell whether image flags follow. types: of atoms, by the header; 0: not told. Returns 1 or
+ * -1. */
+enum { LAMMPS_HEADING_SIZE = 256, LAMMPS_COLUMNS_SIZE = 256 };
+int lammps_data_columns(cgt_trajectory *t, text_span keyword, uint64_t types, char columns[LAMMPS_COLUMNS_SIZE]);
 
 #endif
