@@ -177,6 +177,11 @@ static int read_bond(cgt_trajectory *t, text_span line)
     for (int i = 0; i < 4; i++)
         if (!text_word(&line, &word) || (!text_u64(word, UINT64_MAX, &numbers[i]) && i != 1))
             return trajectory_fail(t, t->text.line, "a bond has a number, a type and the ids of two atoms");
+    if (s->left_out > 0 && (bond_list_find(&s->bond, (uint32_t)numbers[2]) == BOND_NONE ||
+                            bond_list_find(&s->bond, (uint32_t)numbers[3]) == BOND_NONE)) {
+        s->lost_bonds++;
+        return 1;
+    }
     return bond_list_add(&s->bond, (uint32_t)numbers[2], (uint32_t)numbers[3])
                ? trajectory_fail(t, t->text.line, "not enough memory for the bonds")
                : 1;
@@ -203,6 +208,16 @@ static int mass_row(cgt_trajectory *t, text_span line)
     return 1;
 }
 
+/* A row of atoms beyond those that the header counts. */
+static int left_out_row(cgt_trajectory *t, text_span line)
+{
+    data_state *const s = t->state;
+    (void)line;
+    if (s->left_out++ == 0)
+        s->first_left = t->text.line;
+    return 1;
+}
+
 static int velocity_row(cgt_trajectory *t, text_span line)
 {
     data_state *const s = t->state;
@@ -215,6 +230,8 @@ static int velocity_row(cgt_trajectory *t, text_span line)
         if (!text_word(&line, &word) || !text_float(word, &v[i]))
             return trajectory_fail(t, t->text.line, "a velocity has three numbers");
     const uint32_t at = bond_list_find(&s->bond, (uint32_t)id);
+    if (at == BOND_NONE && s->left_out > 0)
+        return 1;
     if (at == BOND_NONE)
         return trajectory_fail(t, t->text.line, "no atom has the id %" PRIu64, id);
     if (!(s->frame.plan.roles & ROW_BIT(ROW_VX))) /* atoms that are not listed have none */
@@ -251,7 +268,12 @@ static int read_section(cgt_trajectory *t, text_span *line)
         (read_atoms(t, (text_span){copy, copy + strlen(copy)}) < 0 || bond_list_index(t, &s->bond, s->atoms) < 0))
         return -1;
     s->has_atoms |= is_atoms;
-    return read_rows(t, line, 1, take);
+    const int more = read_rows(t, line, !is_atoms, is_atoms ? left_out_row : take);
+    if (is_atoms && s->left_out > 0)
+        trajectory_warn(t, DOUBT_ROWS, s->first_left,
+                        "rows of atoms beyond the %" PRIu32 " that the header counts are left out: %" PRIu64, s->atoms,
+                        s->left_out);
+    return more;
 }
 
 /* ---- The format --------------------------------------------------------------------------------------------- */
@@ -341,7 +363,7 @@ static int data_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
         return status;
     if (!s->has_atoms && (s->atoms > 0 || !s->frame.has_box))
         return trajectory_fail(t, t->text.line, "the file ends before the section Atoms");
-    if (s->bond.count < s->bonds)
+    if (s->bond.count + s->lost_bonds < s->bonds)
         return trajectory_fail(t, t->text.line, "the file ends after %zu of %" PRIu32 " bonds: it is cut off",
                                s->bond.count, s->bonds);
     if (trajectory_reserve(t, 0, 0) < 0 || bond_list_resolve(t, &s->bond) < 0)
