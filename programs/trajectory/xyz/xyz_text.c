@@ -125,7 +125,7 @@ static row_role property_role(text_span name, text_span kind, uint64_t columns)
         if (p->role == ROW_TYPE && text_is(kind, "S"))
             return ROW_NAME;
         const char *expected = p->role == ROW_NAME ? "S" : p->role >= ROW_ID ? "I" : "R";
-        if (text_is(kind, expected) || (*expected == 'R' && text_is(kind, "I")))
+        if (text_is(kind, expected) || ((*expected == 'R' || *expected == 'S') && text_is(kind, "I")))
             return p->role;
     }
     return ROW_UNUSED;
@@ -300,6 +300,7 @@ static int finish_row(cgt_trajectory *t, row *r)
     xyz_state *const s = t->state;
     const unsigned roles = s->plan.roles;
     float radius = DEFAULT_RADIUS;
+    uint64_t whole; /* a name that is a type tells no element, which the atomic number does */
     if (roles & ROW_BIT(ROW_NAME)) {
         uint32_t type = 0;
         if (read_name(t, r->name, r, &type, &radius) < 0)
@@ -307,11 +308,11 @@ static int finish_row(cgt_trajectory *t, row *r)
         if (!(roles & ROW_BIT(ROW_TYPE)))
             r->type = type;
     }
-    if (!(roles & ROW_BIT(ROW_NAME)) && roles & ROW_BIT(ROW_NUMBER)) {
+    if (roles & ROW_BIT(ROW_NUMBER) && (!(roles & ROW_BIT(ROW_NAME)) || text_u64(r->name, UINT32_MAX, &whole))) {
         uint32_t type = 0;
         if (row_atomic_number(t, &s->names, r, &type, &radius) < 0)
             return -1;
-        if (!(roles & ROW_BIT(ROW_TYPE)))
+        if (!(roles & (ROW_BIT(ROW_TYPE) | ROW_BIT(ROW_NAME))))
             r->type = type;
     }
     if (!(roles & (ROW_BIT(ROW_RADIUS) | ROW_BIT(ROW_DIAMETER))))
