@@ -81,12 +81,29 @@ static void read_time(xyz_state *s, text_span comment)
         s->time = NAN;
 }
 
-/* Parses the step from "Timestep: 100", as LAMMPS writes it, or Timestep=100. */
+/* The whole number at the front of a value, which a comma may end: 1 or 0. */
+static int take_step(text_span value, int64_t *step)
+{
+    text_span word;
+    char copy[32] = "";
+    if (!comment_word(&value, &word) || text_length(word) >= sizeof copy)
+        return 0;
+    memcpy(copy, word.begin, text_length(word));
+    return text_i64((text_span){copy, copy + text_length(word)}, step);
+}
+
+/* Parses the step from "Timestep: 100", as LAMMPS writes it, Timestep=100, Step=100, or " i = 100, time = 50.000" of
+ * CP2K, whose key is too short to be looked for anywhere else. */
 static void read_step(xyz_state *s, text_span comment)
 {
-    text_span value;
-    s->has_step = (comment_find(comment, "Timestep", &value) || find_after(comment, "Timestep:", &value)) &&
-                  text_i64(value, &s->step);
+    static const char *const keys[][2] = {{"Timestep", "Timestep:"}, {"Step", "Step:"}};
+    text_span value, key, rest = comment;
+    s->has_step = 0;
+    for (int i = 0; i < 2 && !s->has_step; i++)
+        s->has_step = (comment_find(comment, keys[i][0], &value) || find_after(comment, keys[i][1], &value)) &&
+                      take_step(value, &s->step);
+    if (!s->has_step)
+        s->has_step = comment_next(&rest, &key, &value) && text_is(key, "i") && take_step(value, &s->step);
 }
 
 /* ---- Columns ------------------------------------------------------------------------------------------------ */
