@@ -30,10 +30,21 @@ typedef struct xyz_state {
 
 /* ---- The comment -------------------------------------------------------------------------------------------- */
 
-/* Parses the box from Lattice=, nine numbers or the three of a box at right angles, and Origin=. The comment is free
- * text: anything unreadable is no box. */
-static void read_lattice(xyz_state *s, text_span comment)
+/* Tells of a value that cannot be read, unless it is blank. Returns 0: no box. */
+static int refuse_box(cgt_trajectory *t, const char *key, text_span value, const char *expected)
 {
+    char quote[TEXT_QUOTE_SIZE];
+    if (!text_is_blank(value))
+        trajectory_warn(t, DOUBT_LATTICE, t->text.line, "%s'%s' is not %s: the frame has no box", key,
+                        text_quote(value, quote), expected);
+    return 0;
+}
+
+/* Parses the box from Lattice=, nine numbers or the three of a box at right angles, and Origin=. The comment is free
+ * text: anything unreadable is no box, and no error. */
+static void read_lattice(cgt_trajectory *t, text_span comment)
+{
+    xyz_state *const s = t->state;
     text_span text;
     double length[3];
     memset(s->origin, 0, sizeof s->origin);
@@ -42,10 +53,11 @@ static void read_lattice(xyz_state *s, text_span comment)
         memset(s->edge, 0, sizeof s->edge);
         for (int i = 0; i < 3; i++)
             s->edge[i][i] = length[i];
-    } else {
-        s->has_box = s->has_box && comment_numbers(text, 9, &s->edge[0][0]);
+    } else if (s->has_box && !comment_numbers(text, 9, &s->edge[0][0])) {
+        s->has_box = refuse_box(t, "Lattice=", text, "nine numbers, or three");
     }
-    s->has_box = s->has_box && (!comment_find(comment, "Origin", &text) || comment_numbers(text, 3, s->origin));
+    if (s->has_box && comment_find(comment, "Origin", &text) && !comment_numbers(text, 3, s->origin))
+        s->has_box = refuse_box(t, "Origin=", text, "three numbers");
 }
 
 /* Parses pbc="T T F" or pbc=[T, T, F]: which edges are periodic. A single value is that of all. */
@@ -282,7 +294,7 @@ static int read_head(cgt_trajectory *t)
         return -1;
     if (trajectory_parse_count(t, word, &s->count) < 0 || trajectory_line_inside(t, &line, "before the comment") < 0)
         return -1;
-    read_lattice(s, line);
+    read_lattice(t, line);
     read_periodic(s, line);
     read_time(s, line);
     read_step(s, line);
