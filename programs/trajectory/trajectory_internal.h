@@ -49,6 +49,8 @@ typedef enum trajectory_doubt {
     DOUBT_INCLUDES,       /* .top: files that were not found */
     DOUBT_WORDS,          /* words that a column has no room for */
     DOUBT_TOPOLOGY_ORDER, /* ids that do not tell which atom of the topology a sphere is */
+    DOUBT_ROWS,           /* .data: more rows of atoms than the header counts */
+    DOUBT_LATTICE,        /* .xyz: a box that cannot be read */
     DOUBTS
 } trajectory_doubt;
 

@@ -151,6 +151,8 @@ static int find_content(cgt_trajectory *t)
     if (size < 0)
         return trajectory_fail(t, 0, "%s", t->input.error[0] != '\0' ? t->input.error : strerror(errno));
     t->format = trajectory_find_content(bytes, (size_t)size);
+    if (size == 0 && t->path_count == 1 && t->options.follow == 0.0) /* no frames, in any format */
+        t->format = &trajectory_format_xyz;
     if (t->format == NULL)
         return trajectory_fail(t, 0,
                                "the first bytes are those of no format that is known, and the ending is not one "

@@ -3,7 +3,7 @@
  *
  * LAMMPS data files, as write_data and read_data know them: a title, a header (counts and box), then sections of rows,
  * each under a keyword and a blank line. One frame. Which columns the atoms have tells the style behind their keyword,
- * "Atoms # full"; where it is missing, their number. Bonds refer to ids, in any order. */
+ * "Atoms # full"; where it is missing, what the rows allow. Bonds refer to ids, in any order. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/atoms/trajectory_bonds.h"
 #include "trajectory/atoms/trajectory_sites.h"
@@ -19,6 +19,10 @@
 typedef struct data_state {
     lammps_frame frame; /* first: lammps_columns.h */
     uint32_t atoms, bonds;
+    uint64_t types;      /* of atoms, by the header; 0: not told */
+    uint64_t left_out;   /* rows of atoms beyond those that the header counts */
+    uint64_t first_left; /* line of the first of them */
+    uint64_t lost_bonds; /* of atoms that were left out */
     double bounds[3][4]; /* low, high, tilt of each axis */
     double vectors[3][4];
     int is_general;
@@ -29,12 +33,6 @@ typedef struct data_state {
 } data_state;
 
 /* ---- Header ------------------------------------------------------------------------------------------------- */
-
-static int begins_with_letter(text_span line)
-{
-    return line.begin < line.end &&
-           ((*line.begin >= 'A' && *line.begin <= 'Z') || (*line.begin >= 'a' && *line.begin <= 'z'));
-}
 
 /* Reads the `count` numbers that a line of the header begins with. */
 static int take_numbers(cgt_trajectory *t, text_span *line, int count, double *values)
@@ -96,6 +94,8 @@ static int read_header_line(cgt_trajectory *t, text_span words)
         return is_box;
     text_word(&rest, &word);
     text_trim(&rest);
+    if (text_is(rest, "atom types") && !text_u64(word, UINT64_MAX, &s->types))
+        s->types = 0;
     if (text_is(rest, "atoms"))
         return trajectory_parse_count(t, word, &s->atoms);
     return text_is(rest, "bonds") ? trajectory_parse_count(t, word, &s->bonds) : 1;
@@ -124,16 +124,11 @@ static void make_box(data_state *s)
 static int read_atoms(cgt_trajectory *t, text_span keyword)
 {
     data_state *const s = t->state;
-    text_span first = {NULL, NULL};
     cgt_trajectory_frame unused;
-    char heading[128], columns[LAMMPS_COLUMNS_SIZE];
+    char heading[LAMMPS_HEADING_SIZE], columns[LAMMPS_COLUMNS_SIZE];
     snprintf(heading, sizeof heading, "%.*s", (int)text_length(keyword), keyword.begin);
-    if (trajectory_line_inside(t, &first, "before the atoms") < 0)
-        return -1;
-    if (lammps_data_columns(t, (text_span){heading, heading + strlen(heading)}, first, columns) < 0)
-        return -1;
-    text_reader_back(&t->text);
-    if (lammps_plan_columns(t, (text_span){columns, columns + strlen(columns)}) < 0)
+    if (lammps_data_columns(t, (text_span){heading, heading + strlen(heading)}, s->types, columns) < 0 ||
+        lammps_plan_columns(t, (text_span){columns, columns + strlen(columns)}) < 0)
         return -1;
     s->frame.plan.open_ended = 1; /* comments */
     s->has_atoms = 1;
@@ -182,36 +177,23 @@ static int read_bond(cgt_trajectory *t, text_span line)
     for (int i = 0; i < 4; i++)
         if (!text_word(&line, &word) || (!text_u64(word, UINT64_MAX, &numbers[i]) && i != 1))
             return trajectory_fail(t, t->text.line, "a bond has a number, a type and the ids of two atoms");
+    if (s->left_out > 0 && (bond_list_find(&s->bond, (uint32_t)numbers[2]) == BOND_NONE ||
+                            bond_list_find(&s->bond, (uint32_t)numbers[3]) == BOND_NONE)) {
+        s->lost_bonds++;
+        return 1;
+    }
     return bond_list_add(&s->bond, (uint32_t)numbers[2], (uint32_t)numbers[3])
                ? trajectory_fail(t, t->text.line, "not enough memory for the bonds")
                : 1;
 }
 
-/* Whether a line that begins with a letter is a keyword: rows may begin with the label of a type, but have numbers, or
- * stand right below a keyword. */
-static int is_keyword(text_span line, int is_first)
+/* Reads the rows of a section up to the next keyword, which *line then has: 1, 0 at the end of the file, -1. is_first:
+ * no row of it was read before. */
+static int read_rows(cgt_trajectory *t, text_span *line, int is_first, int (*take)(cgt_trajectory *t, text_span line))
 {
-    static const char *const known[] = {"Atoms",     "Velocities", "Masses", "Bonds",     "Angles", "Dihedrals",
-                                        "Impropers", "Ellipsoids", "Lines",  "Triangles", "Bodies"};
-    text_span rest = lammps_without_comment(line), last = rest, word;
-    int has_number = 0;
-    double number;
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
-        if (text_is(rest, known[i]))
-            return 1;
-    while (text_word(&rest, &word)) {
-        has_number |= text_double(word, &number);
-        last = word;
-    }
-    return text_is(last, "Coeffs") || text_is(last, "Labels") || (!has_number && !is_first);
-}
-
-/* Reads the rows of a section up to the next keyword, which *line then has: 1, 0 at the end of the file, -1. */
-static int read_rows(cgt_trajectory *t, text_span *line, int (*take)(cgt_trajectory *t, text_span line))
-{
-    for (int is_first = 1;;) {
+    while (1) {
         const int status = trajectory_line(t, line);
-        if (status <= 0 || (begins_with_letter(*line) && is_keyword(*line, is_first)))
+        if (status <= 0 || lammps_is_keyword(*line, is_first))
             return status;
         const text_span words = lammps_without_comment(*line);
         is_first &= words.begin == words.end;
@@ -223,6 +205,16 @@ static int read_rows(cgt_trajectory *t, text_span *line, int (*take)(cgt_traject
 static int mass_row(cgt_trajectory *t, text_span line)
 {
     read_mass(t->state, line);
+    return 1;
+}
+
+/* A row of atoms beyond those that the header counts. */
+static int left_out_row(cgt_trajectory *t, text_span line)
+{
+    data_state *const s = t->state;
+    (void)line;
+    if (s->left_out++ == 0)
+        s->first_left = t->text.line;
     return 1;
 }
 
@@ -238,6 +230,8 @@ static int velocity_row(cgt_trajectory *t, text_span line)
         if (!text_word(&line, &word) || !text_float(word, &v[i]))
             return trajectory_fail(t, t->text.line, "a velocity has three numbers");
     const uint32_t at = bond_list_find(&s->bond, (uint32_t)id);
+    if (at == BOND_NONE && s->left_out > 0)
+        return 1;
     if (at == BOND_NONE)
         return trajectory_fail(t, t->text.line, "no atom has the id %" PRIu64, id);
     if (!(s->frame.plan.roles & ROW_BIT(ROW_VX))) /* atoms that are not listed have none */
@@ -260,7 +254,7 @@ static int read_section(cgt_trajectory *t, text_span *line)
         take = label_row;
     }
     take = text_is(words, "Velocities") && s->has_atoms ? velocity_row : take;
-    char copy[128];
+    char copy[LAMMPS_HEADING_SIZE];
     snprintf(copy, sizeof copy, "%.*s", (int)text_length(keyword), keyword.begin);
     text_span blank;
     const int status = trajectory_line(t, &blank);
@@ -274,7 +268,12 @@ static int read_section(cgt_trajectory *t, text_span *line)
         (read_atoms(t, (text_span){copy, copy + strlen(copy)}) < 0 || bond_list_index(t, &s->bond, s->atoms) < 0))
         return -1;
     s->has_atoms |= is_atoms;
-    return read_rows(t, line, take);
+    const int more = read_rows(t, line, !is_atoms, is_atoms ? left_out_row : take);
+    if (is_atoms && s->left_out > 0)
+        trajectory_warn(t, DOUBT_ROWS, s->first_left,
+                        "rows of atoms beyond the %" PRIu32 " that the header counts are left out: %" PRIu64, s->atoms,
+                        s->left_out);
+    return more;
 }
 
 /* ---- The format --------------------------------------------------------------------------------------------- */
@@ -291,6 +290,7 @@ static int read_head(cgt_trajectory *t, text_span *line)
 {
     data_state *const s = t->state;
     s->atoms = s->bonds = 0;
+    s->types = s->left_out = s->lost_bonds = 0;
     s->frame.has_box = s->is_general = s->has_atoms = 0;
     row_plan_clear(&s->frame.plan);
     memset(s->frame.unwrapped, 0, sizeof s->frame.unwrapped);
@@ -304,7 +304,8 @@ static int read_head(cgt_trajectory *t, text_span *line)
     bond_list_clear(&s->bond);
     int status = trajectory_line(t, line); /* the title */
     while (status > 0 && (status = trajectory_line(t, line)) > 0) {
-        if (begins_with_letter(*line))
+        const int is_indented = *line->begin == ' ' || *line->begin == '\t';
+        if (lammps_is_keyword(*line, is_indented)) /* other words behind a blank are remarks */
             return 1;
         const text_span words = lammps_without_comment(*line);
         if (words.begin < words.end && read_header_line(t, words) < 0)
@@ -362,7 +363,7 @@ static int data_read(cgt_trajectory *t, cgt_trajectory_frame *frame)
         return status;
     if (!s->has_atoms && (s->atoms > 0 || !s->frame.has_box))
         return trajectory_fail(t, t->text.line, "the file ends before the section Atoms");
-    if (s->bond.count < s->bonds)
+    if (s->bond.count + s->lost_bonds < s->bonds)
         return trajectory_fail(t, t->text.line, "the file ends after %zu of %" PRIu32 " bonds: it is cut off",
                                s->bond.count, s->bonds);
     if (trajectory_reserve(t, 0, 0) < 0 || bond_list_resolve(t, &s->bond) < 0)

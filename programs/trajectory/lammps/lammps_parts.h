@@ -53,9 +53,14 @@ void lammps_set_box(const cgt_trajectory *t, cgt_trajectory_frame *frame);
 /* A line up to its comment, without blanks at the ends. */
 text_span lammps_without_comment(text_span line);
 
+/* Whether a line is the keyword of a section, which blanks may stand before (TopoTools writes one). It begins with a
+ * letter. So may rows, with the label of a type, but they have numbers, or stand right below a keyword: is_first. */
+int lammps_is_keyword(text_span line, int is_first);
+
 /* The columns of the atoms, apart by blanks: by the style behind the keyword ("Atoms # full") or, with a warning, by
- * the first row, which also tells whether image flags follow. Returns 1 or -1. */
-enum { LAMMPS_COLUMNS_SIZE = 96 };
-int lammps_data_columns(cgt_trajectory *t, text_span keyword, text_span first, char columns[LAMMPS_COLUMNS_SIZE]);
+ * the next rows, which also tell whether image flags follow. types: of atoms, by the header; 0: not told. Returns 1 or
+ * -1. */
+enum { LAMMPS_HEADING_SIZE = 256, LAMMPS_COLUMNS_SIZE = 256 };
+int lammps_data_columns(cgt_trajectory *t, text_span keyword, uint64_t types, char columns[LAMMPS_COLUMNS_SIZE]);
 
 #endif

@@ -30,10 +30,21 @@ typedef struct xyz_state {
 
 /* ---- The comment -------------------------------------------------------------------------------------------- */
 
-/* Parses the box from Lattice=, nine numbers or the three of a box at right angles, and Origin=. The comment is free
- * text: anything unreadable is no box. */
-static void read_lattice(xyz_state *s, text_span comment)
+/* Tells of a value that cannot be read, unless it is blank. Returns 0: no box. */
+static int refuse_box(cgt_trajectory *t, const char *key, text_span value, const char *expected)
 {
+    char quote[TEXT_QUOTE_SIZE];
+    if (!text_is_blank(value))
+        trajectory_warn(t, DOUBT_LATTICE, t->text.line, "%s'%s' is not %s: the frame has no box", key,
+                        text_quote(value, quote), expected);
+    return 0;
+}
+
+/* Parses the box from Lattice=, nine numbers or the three of a box at right angles, and Origin=. The comment is free
+ * text: anything unreadable is no box, and no error. */
+static void read_lattice(cgt_trajectory *t, text_span comment)
+{
+    xyz_state *const s = t->state;
     text_span text;
     double length[3];
     memset(s->origin, 0, sizeof s->origin);
@@ -42,10 +53,11 @@ static void read_lattice(xyz_state *s, text_span comment)
         memset(s->edge, 0, sizeof s->edge);
         for (int i = 0; i < 3; i++)
             s->edge[i][i] = length[i];
-    } else {
-        s->has_box = s->has_box && comment_numbers(text, 9, &s->edge[0][0]);
+    } else if (s->has_box && !comment_numbers(text, 9, &s->edge[0][0])) {
+        s->has_box = refuse_box(t, "Lattice=", text, "nine numbers, or three");
     }
-    s->has_box = s->has_box && (!comment_find(comment, "Origin", &text) || comment_numbers(text, 3, s->origin));
+    if (s->has_box && comment_find(comment, "Origin", &text) && !comment_numbers(text, 3, s->origin))
+        s->has_box = refuse_box(t, "Origin=", text, "three numbers");
 }
 
 /* Parses pbc="T T F" or pbc=[T, T, F]: which edges are periodic. A single value is that of all. */
@@ -81,12 +93,29 @@ static void read_time(xyz_state *s, text_span comment)
         s->time = NAN;
 }
 
-/* Parses the step from "Timestep: 100", as LAMMPS writes it, or Timestep=100. */
+/* The whole number at the front of a value, which a comma may end: 1 or 0. */
+static int take_step(text_span value, int64_t *step)
+{
+    text_span word;
+    char copy[32] = "";
+    if (!comment_word(&value, &word) || text_length(word) >= sizeof copy)
+        return 0;
+    memcpy(copy, word.begin, text_length(word));
+    return text_i64((text_span){copy, copy + text_length(word)}, step);
+}
+
+/* Parses the step from "Timestep: 100", as LAMMPS writes it, Timestep=100, Step=100, or " i = 100, time = 50.000" of
+ * CP2K, whose key is too short to be looked for anywhere else. */
 static void read_step(xyz_state *s, text_span comment)
 {
-    text_span value;
-    s->has_step = (comment_find(comment, "Timestep", &value) || find_after(comment, "Timestep:", &value)) &&
-                  text_i64(value, &s->step);
+    static const char *const keys[][2] = {{"Timestep", "Timestep:"}, {"Step", "Step:"}};
+    text_span value, key, rest = comment;
+    s->has_step = 0;
+    for (int i = 0; i < 2 && !s->has_step; i++)
+        s->has_step = (comment_find(comment, keys[i][0], &value) || find_after(comment, keys[i][1], &value)) &&
+                      take_step(value, &s->step);
+    if (!s->has_step)
+        s->has_step = comment_next(&rest, &key, &value) && text_is(key, "i") && take_step(value, &s->step);
 }
 
 /* ---- Columns ------------------------------------------------------------------------------------------------ */
@@ -125,7 +154,7 @@ static row_role property_role(text_span name, text_span kind, uint64_t columns)
         if (p->role == ROW_TYPE && text_is(kind, "S"))
             return ROW_NAME;
         const char *expected = p->role == ROW_NAME ? "S" : p->role >= ROW_ID ? "I" : "R";
-        if (text_is(kind, expected) || (*expected == 'R' && text_is(kind, "I")))
+        if (text_is(kind, expected) || ((*expected == 'R' || *expected == 'S') && text_is(kind, "I")))
             return p->role;
     }
     return ROW_UNUSED;
@@ -265,7 +294,7 @@ static int read_head(cgt_trajectory *t)
         return -1;
     if (trajectory_parse_count(t, word, &s->count) < 0 || trajectory_line_inside(t, &line, "before the comment") < 0)
         return -1;
-    read_lattice(s, line);
+    read_lattice(t, line);
     read_periodic(s, line);
     read_time(s, line);
     read_step(s, line);
@@ -300,6 +329,7 @@ static int finish_row(cgt_trajectory *t, row *r)
     xyz_state *const s = t->state;
     const unsigned roles = s->plan.roles;
     float radius = DEFAULT_RADIUS;
+    uint64_t whole; /* a name that is a type tells no element, which the atomic number does */
     if (roles & ROW_BIT(ROW_NAME)) {
         uint32_t type = 0;
         if (read_name(t, r->name, r, &type, &radius) < 0)
@@ -307,11 +337,11 @@ static int finish_row(cgt_trajectory *t, row *r)
         if (!(roles & ROW_BIT(ROW_TYPE)))
             r->type = type;
     }
-    if (!(roles & ROW_BIT(ROW_NAME)) && roles & ROW_BIT(ROW_NUMBER)) {
+    if (roles & ROW_BIT(ROW_NUMBER) && (!(roles & ROW_BIT(ROW_NAME)) || text_u64(r->name, UINT32_MAX, &whole))) {
         uint32_t type = 0;
         if (row_atomic_number(t, &s->names, r, &type, &radius) < 0)
             return -1;
-        if (!(roles & ROW_BIT(ROW_TYPE)))
+        if (!(roles & (ROW_BIT(ROW_TYPE) | ROW_BIT(ROW_NAME))))
             r->type = type;
     }
     if (!(roles & (ROW_BIT(ROW_RADIUS) | ROW_BIT(ROW_DIAMETER))))

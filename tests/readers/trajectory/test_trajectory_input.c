@@ -201,7 +201,7 @@ TEST(compressed_files)
 TEST(formats_by_their_first_bytes)
 {
     scratch_expect_error(scratch_text(".melt", "odd\n"), NULL, 0, "the first bytes are those of no format");
-    scratch_expect_error(scratch_text("", ""), NULL, 0, "the first bytes are those of no format");
+    scratch_expect_end(scratch_open(scratch_text("", ""), NULL)); /* no frames, whatever the format */
 #ifdef CGT_HAVE_ARCHIVE
     char error[1024] = "";
     cgt_trajectory *t = scratch_open(scratch_bytes(".melt.gz", by_gzip, sizeof by_gzip), NULL);
