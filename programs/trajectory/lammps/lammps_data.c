@@ -304,7 +304,7 @@ static int read_head(cgt_trajectory *t, text_span *line)
     bond_list_clear(&s->bond);
     int status = trajectory_line(t, line); /* the title */
     while (status > 0 && (status = trajectory_line(t, line)) > 0) {
-        const int is_indented = *line->begin == ' ' || *line->begin == '\t';
+        const int is_indented = line->begin < line->end && (*line->begin == ' ' || *line->begin == '\t');
         if (lammps_is_keyword(*line, is_indented)) /* other words behind a blank are remarks */
             return 1;
         const text_span words = lammps_without_comment(*line);
