@@ -261,7 +261,10 @@ cgt_result cgt_figure_survey(cgt_figure *figure, const cgt_figure_data *data)
 {
     if (figure->has_survey && !figure->is_surveying) /* it has ended */
         cgt_figure_begin_again(figure);
-    return look(figure, data) ? fail_frame(figure) : CGT_OK;
+    if (!look(figure, data))
+        return CGT_OK;
+    figure->next = UINT64_MAX;
+    return figure->is_surveying && figure->survey.frames ? cgt_figure_result(figure) : fail_frame(figure);
 }
 
 bool cgt_figure_needs_frame(const cgt_figure *figure)
@@ -396,7 +399,14 @@ static int show(cgt_figure *figure, const cgt_figure_data *data)
 
 cgt_result cgt_figure_show(cgt_figure *figure, const cgt_figure_data *data)
 {
-    return show(figure, data) ? fail_frame(figure) : CGT_OK;
+    const int had_survey = figure->has_survey;
+    if (!show(figure, data))
+        return CGT_OK;
+    if (!had_survey || !figure->is_settled) /* all that was found is of this frame */
+        return fail_frame(figure);
+    cgt_figure_clear(figure);
+    figure->next = UINT64_MAX;
+    return cgt_figure_result(figure);
 }
 
 /* ---- Cameras ------------------------------------------------------------------------------------------------ */

@@ -132,11 +132,16 @@ void cgt_figure_frame_release(cgt_figure_frame *frame)
 
 void cgt_figure_unshow(cgt_figure *figure)
 {
-    figure_scene *const s = &figure->parts;
     if (!figure->shown)
         return;
     figure->shown->shown_by = NULL;
     figure->shown = NULL;
+    cgt_figure_clear(figure);
+}
+
+void cgt_figure_clear(cgt_figure *figure)
+{
+    figure_scene *const s = &figure->parts;
     figure->frame = NULL;
     cgt_scene_release(figure->scene);
     cgt_figure_bounce_release(figure->bounce);

@@ -147,8 +147,9 @@ int cgt_figure_check_frame(cgt_figure *figure);
 /* Has the sequence's frame drawn, whose arrays are copied; or stay where they are until another one is drawn. */
 int cgt_figure_build(cgt_figure *figure, int is_kept);
 
-/* Takes a kept frame's arrays out of the scene. */
+/* Takes a kept frame's arrays out of the scene. Then the same of any frame's: nothing is shown. */
 void cgt_figure_unshow(cgt_figure *figure);
+void cgt_figure_clear(cgt_figure *figure);
 
 /* Forgets all that was found of frames; what was set, and the options made of it, stay. Then the same, and the options
  * are made anew: cameras were moved, axes and ambient rays chosen in them. */

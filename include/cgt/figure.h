@@ -181,7 +181,7 @@ CGT_API cgt_result cgt_figure_set_mesh(cgt_figure *figure, const cgt_figure_data
 
 /* Looks at a frame: automatic camera, ranges and legend follow all frames that were looked at, in order. Speeds of
  * frame 0 are those towards frame 1 where that was looked at. A frame after one that was shown begins a new survey.
- * Errors: as cgt_figure_show */
+ * Errors: as cgt_figure_show; the survey is then what it was before, without this frame */
 CGT_API cgt_result cgt_figure_survey(cgt_figure *figure, const cgt_figure_data *data);
 
 /* Returns whether the options ask for another frame to be looked at; the first is needed in any case. */
@@ -192,7 +192,8 @@ CGT_API bool cgt_figure_needs_frame(const cgt_figure *figure);
 CGT_API bool cgt_figure_get_origin(cgt_figure *figure, double origin[3]);
 
 /* Makes a frame the one that is drawn: what is shown, colours, bonds, the scene's commit. The data are copied.
- * Errors: INVALID_ARGUMENT (what the options ask for is not there, or wrong), OUT_OF_MEMORY, TOO_LARGE */
+ * Errors: INVALID_ARGUMENT (what the options ask for is not there, or wrong), OUT_OF_MEMORY, TOO_LARGE; then none is
+ *         shown, and the survey stays; without one, what was found of this frame does not */
 CGT_API cgt_result cgt_figure_show(cgt_figure *figure, const cgt_figure_data *data);
 
 /* ---- Frames that are kept ----------------------------------------------------------------------------------- */

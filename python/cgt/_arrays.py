@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 import weakref
-from typing import Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -45,6 +45,9 @@ class Hold:
                 self._kept.append(memoryview(owner))
             except (TypeError, ValueError, BufferError):  # it has no buffer to export
                 pass
+
+    def __reduce__(self):
+        return Hold, (self.view,)
 
     def check(self, name: str) -> None:
         """Refuses an array whose memory was replaced all the same (ndarray.data, ndarray.__setstate__)."""
@@ -254,6 +257,12 @@ def is_output(a, dtype: np.dtype, shape) -> bool:
     """Whether an array is what a call may write to."""
     return (isinstance(a, np.ndarray) and not isinstance(a, np.ma.MaskedArray) and np.asarray(
         a).dtype == dtype and np.asarray(a).shape == tuple(shape) and np.asarray(a).flags.writeable)
+
+
+def refuse_overlap(name: str, a: np.ndarray, holds: Iterable[Hold]) -> None:
+    """Refuses an output that lies where the call reads, which goes on while others of its rays are done."""
+    if any(np.may_share_memory(a, hold.view) and np.shares_memory(a, hold.view) for hold in holds):
+        raise InvalidArgument(f"{name}: it overlaps what the call reads")
 
 
 class Outputs:

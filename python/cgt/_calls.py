@@ -9,7 +9,7 @@ from typing import Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
-from ._arrays import F4, U4, Hold, Outputs, is_output, ray_vectors, scalar_pointers, vector_pointers
+from ._arrays import F4, U4, Hold, Outputs, is_output, ray_vectors, refuse_overlap, scalar_pointers, vector_pointers
 from ._native import InvalidArgument, enum_value, ffi, instance, several, struct_values, switch
 from .research import TraceOptions
 
@@ -108,14 +108,15 @@ def _flat(outputs: Outputs, shape) -> Outputs:
     return flat
 
 
-def _bytes_out(name: str, out: Optional[np.ndarray], shape, make=np.empty) -> Hold:
-    """An array of bytes for a call, its own or the caller's."""
+def _bytes_out(name: str, out: Optional[np.ndarray], shape, read: Iterable[Hold] = ()) -> Hold:
+    """An array of bytes for a call, its own or the caller's, which is none of those that it reads."""
     if out is None:
-        return Hold(make(shape, np.uint8))
+        return Hold(np.empty(shape, np.uint8))
     if not isinstance(out, np.ndarray):
         raise InvalidArgument(f"{name}: {type(out).__name__}: must be an array of uint8 or bool")
     if not any(is_output(out, np.dtype(kind), shape) for kind in (np.uint8, np.bool_)) or (
             not np.asarray(out).flags.c_contiguous):
         raise InvalidArgument(f"{name}: dtype {out.dtype}, shape {out.shape}: must be a writable, contiguous array of "
                               f"uint8 or bool, shape {tuple(shape)}")
+    refuse_overlap(name, out, read)
     return Hold(np.asarray(out).view(np.uint8))

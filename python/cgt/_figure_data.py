@@ -4,15 +4,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from numbers import Number
-from typing import Any, Dict, Iterator, List, NamedTuple, Optional
+from typing import Any, Dict, List, NamedTuple, Optional
 
 import numpy as np
 
 from . import _arrays
 from ._arrays import F4, F8, I8, U4, Hold, array_of, check_shape, flags, numbers
-from ._native import InvalidArgument, real, whole
+from ._native import InvalidArgument, encoded, real, whole
 from .trajectory import Trajectory, TrajectoryFrame, TrajectorySlice
 
 _WHOLE = ("id", "type", "element")
@@ -37,40 +37,54 @@ class Words(NamedTuple):
 
 
 class FigureData:
-    """A frame as <cgt/figure.h> takes it: arrays of its types, which C copies."""
+    """A frame as <cgt/figure.h> takes it: arrays of its types, which C copies.
+
+    What is the caller's is held where it lies, in the shape that it has now: C is told of no other.
+    """
 
     def __init__(self, positions, *, radius=None, columns: Optional[Mapping] = None, bonds=None, cell=None, pbc=True,
                  triangles=None, corner=(0.0, 0.0, 0.0), unwrapped=(0, 0, 0), angstrom: float = 1.0,
                  number: Optional[int] = None, step: Optional[int] = None, time: Optional[float] = None,
                  origin=None, unread=(), odd: Optional[Mapping] = None):
-        self.positions = _floats("positions", positions, ("n", 3))
+        self._holds: Dict[str, Hold] = {}
+        self.positions = self._hold("positions", _floats("positions", positions, ("n", 3)))
         count = len(self.positions)
         self.columns: Dict[str, Any] = {}
         self.radius, self.angstrom, self.origin = 0.0, _from_0("angstrom", angstrom), origin
         for name, values in ({} if columns is None else columns_of(columns)).items():
-            self.columns[str(name)] = _column(str(name), values, count)
+            a = _column(str(name), values, count)
+            at = f"columns: {name}"
+            self.columns[str(name)] = (Words(self._hold(at, a.texts), a.known) if isinstance(a, Words) else
+                                       self._hold(at, a))
         if radius is not None and array_of("radius", radius).ndim:
-            self.columns["radius"] = numbers("radius", radius, F4, (count,))
+            self.columns["radius"] = self._hold("radius", numbers("radius", radius, F4, (count,)))
         elif radius is not None:
             self.columns.pop("radius", None)
             self.radius = _from_0("radius", radius)
-        self.triangles = None if triangles is None else numbers("triangles", triangles, U4, ("m", 3))
+        self.triangles = None
+        if triangles is not None:
+            self.triangles = self._hold("triangles", numbers("triangles", triangles, U4, ("m", 3)))
         self.bonds = None
         if bonds is not None:
             pairs = array_of("bonds", bonds)
-            self.bonds = numbers("bonds", pairs if pairs.size else np.empty((0, 2), U4), U4, ("m", 2))
+            pairs = numbers("bonds", pairs if pairs.size else np.empty((0, 2), U4), U4, ("m", 2))
+            self.bonds = self._hold("bonds", pairs)
         self.edges = None
         if cell is not None:
-            edges = numbers("cell", cell, F8)
+            edges = self._hold("cell", numbers("cell", cell, F8))
             self.edges = np.diag(edges) if edges.shape == (3,) else edges
             check_shape("cell", self.edges, (3, 3))
             self.periodic, self.unwrapped = flags("pbc", pbc), flags("unwrapped", unwrapped) != 0
-            self.corner = numbers("corner", corner, F8, (3,))
+            self.corner = self._hold("corner", numbers("corner", corner, F8, (3,)))
             self._complete()
         self.number, self.step, self.unread, self.odd = number, step, unread, odd or {}
-        self.time = None if time is None else numbers("time", time, F8)
+        self.time = None if time is None else self._hold("time", numbers("time", time, F8))
         if self.time is not None and self.time.ndim:
             raise InvalidArgument(f"time: shape {self.time.shape}: must be one number")
+
+    def _hold(self, name: str, a: np.ndarray) -> np.ndarray:
+        hold = self._holds[name] = Hold(a)
+        return hold.view
 
     def _complete(self) -> None:
         """Sheets and chains have edges of no length: those are across the others there, as long as the data reach."""
@@ -87,6 +101,8 @@ class FigureData:
 
     def fill(self, ffi, number: int, origin, keep: list, tables: Dict[str, List[str]]):
         """The C struct, and in `keep` what it points to; tables: of words, by column, from frame to frame."""
+        for name, hold in self._holds.items():
+            hold.check(name)
         c = ffi.new("cgt_figure_data *")
         c.number = whole("number", number if self.number is None else self.number, 0, 2**63 - 1)
         c.step = c.number if self.step is None else whole("step", self.step, -2**63, 2**63 - 1)
@@ -144,7 +160,7 @@ def _from_0(name: str, value) -> float:
     return number
 
 
-def _of_objects(name: str, a: np.ndarray) -> np.ndarray:
+def of_objects(name: str, a: np.ndarray) -> np.ndarray:
     """Words or numbers of an array of objects, as tables have them; what is missing is no word, or NaN."""
     if a.size and all(x.__class__ is str for x in a.flat):  # of large molecules, in each frame
         return a.astype(str)
@@ -167,16 +183,21 @@ def _of_objects(name: str, a: np.ndarray) -> np.ndarray:
 
 def _column(name: str, values, count: int):
     """Numbers of a column, or words."""
+    encoded("columns", name)  # which C could not read
     known = values.known if isinstance(values, Words) else []
     a = array_of(f"columns: {name}", values.texts if isinstance(values, Words) else values, np.nan)
     if a.dtype.kind in "US" and isinstance(values, (list, tuple)) and not isinstance(values, Words) and a.ndim == 1:
         # numpy makes words of the numbers among them
         a = np.array([None if x is np.ma.masked else x for x in values] + [None], object)[:-1]
     if a.dtype == object:
-        a = _of_objects(f"columns: {name}", a)
+        a = of_objects(f"columns: {name}", a)
     if a.dtype.kind in "US":
         check_shape(f"columns: {name}", a, (count,))
-        return Words(a if a.dtype.kind == "U" else np.char.decode(a, "utf-8", "replace"), known)
+        texts = a if a.dtype.kind == "U" else np.char.decode(a, "utf-8", "replace")
+        for word in texts.tolist():
+            if "\0" in word:
+                raise InvalidArgument(f"columns: {name}: {word!r}: a zero is in it")
+        return Words(texts, known)
     if name in _WHOLE:
         return numbers(name, a, U4, (count,))
     if name in ("velocity", "normal", "rgb"):
@@ -359,6 +380,11 @@ def is_run(given) -> bool:
     return not isinstance(given, tuple) and hasattr(given, "__iter__") and not hasattr(given, "__array__") and not any(
         hasattr(given, name) for name in ("atoms", "get_atomic_numbers", "faces", "to_numpy", "column_names")) and (
             not isinstance(given, list) or bool(given) and not _is_place(given[0]))
+
+
+def is_read_once(run) -> bool:
+    """Whether a run has no frames any more once it was looped over."""
+    return isinstance(run, Iterator) or (isinstance(run, Trajectory) and not run.can_rewind)
 
 
 def _axes(thing) -> int:

@@ -12,7 +12,8 @@ from . import _arrays
 from ._arrays import F4, Hold, Outputs
 from ._calls import Out, _Call, _expand, _bytes_out
 from ._gate import nesting
-from ._native import InvalidArgument, TooLarge, enum_value, exception_of, ffi, instance, lib, pair, real, several, whole
+from ._native import (InvalidArgument, TooLarge, enum_value, exception_of, ffi, instance, keep_error, lib, pair, real,
+                      several, whole)
 from .geometry import Camera, Light
 from .results import FRAME_FIELDS, NO_HIT, Frame
 
@@ -112,7 +113,7 @@ class Frames:
         options = ffi.new("cgt_shadow_options *", {"t_min": real("t_min", t_min)})
         call = _Call("exact", False, research)
         shape, row = (len(lights), height, width), self._row(frame)
-        given = None if out is None else _bytes_out("out", out, shape)
+        given = None if out is None else _bytes_out("out", out, shape, map(Hold, frame.arrays.values()))
         full = given
         if full is None or row != width:  # C's rows are as far apart as the frame's
             full = Hold(np.zeros((*shape[:2], row), np.uint8))  # zeros: of rows that are not traced
@@ -209,20 +210,17 @@ def _tile_callback(visitor, fields, errors):
         strides = (4 * tile.row_stride, 4)
         return np.lib.stride_tricks.as_strided(flat, (tile.height, tile.width), strides).copy()
 
-    @ffi.callback("cgt_visit(void *, const cgt_tile *)")
+    # what is raised, were it Ctrl-C before the first line, goes to the caller by way of C
+    @ffi.callback("cgt_visit(void *, const cgt_tile *)", error=lib.CGT_VISIT_STOP, onerror=keep_error(errors))
     def call(_user, tile):
-        try:
-            arrays = {}
-            for name in fields:
-                dtype, width = FRAME_FIELDS[name]
-                p = getattr(tile, name)
-                arrays[name] = plane(p, tile, dtype) if width == 1 else np.stack(
-                    [plane(p[k], tile, dtype) for k in range(3)], axis=-1)
-            seen = SimpleNamespace(x=tile.x, y=tile.y, width=tile.width, height=tile.height, **arrays)
-            with nesting:
-                return lib.CGT_VISIT_STOP if visitor(seen) else lib.CGT_VISIT_CONTINUE
-        except BaseException as error:  # it goes to the caller, by way of C
-            errors.append(error)
-            return lib.CGT_VISIT_STOP
+        arrays = {}
+        for name in fields:
+            dtype, width = FRAME_FIELDS[name]
+            p = getattr(tile, name)
+            arrays[name] = plane(p, tile, dtype) if width == 1 else np.stack(
+                [plane(p[k], tile, dtype) for k in range(3)], axis=-1)
+        seen = SimpleNamespace(x=tile.x, y=tile.y, width=tile.width, height=tile.height, **arrays)
+        with nesting:
+            return lib.CGT_VISIT_STOP if visitor(seen) else lib.CGT_VISIT_CONTINUE
 
     return call

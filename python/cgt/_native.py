@@ -226,6 +226,18 @@ def text_of_path(name, value):
     return text
 
 
+def encoded(name, text):
+    """The bytes of a text, or an error that names it: C would end it at a zero."""
+    if "\0" in text:
+        raise InvalidArgument(f"{name}: {text!r}: a zero is in it")
+    return text.encode(errors="replace")
+
+
+def keep_error(errors):
+    """What cffi calls with the exception of a callback: it keeps it in a list, for who has called C."""
+    return lambda _kind, error, _trace: errors.append(error)
+
+
 def switch(name, value):
     """True or False, or an error that names it."""
     try:

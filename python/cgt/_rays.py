@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _arrays
-from ._arrays import F4, U4, Outputs, ray_vectors, scalar_pointers, vector_pointers
+from ._arrays import F4, U4, Outputs, ray_vectors, refuse_overlap, scalar_pointers, vector_pointers
 from ._calls import Out, _Call, _Rays, _hits_struct, _flat, _expand, _bytes_out, _names, _taken
 from ._native import InvalidArgument, enum_value, ffi, instance, lib, pair, real, switch, three, whole
 from .geometry import Light
@@ -66,6 +66,8 @@ class Rays:
 
     def _trace(self, function, rays, fields, out, call) -> Hits:
         outputs = Outputs(rays.shape, _expand(fields), RAY_FIELDS, out)
+        for name, a in () if out is None else outputs.arrays.items():
+            refuse_overlap(f"out[{name!r}]", a, rays.keep)
         flat = _flat(outputs, rays.shape)
         hits = ffi.new("cgt_hits *", _hits_struct(flat))
         with self._gate.shared:
@@ -84,7 +86,7 @@ class Rays:
         """
         rays = _Rays(org, dir, t_min=t_min, t_max=t_max, mask=mask, skip_primitive=skip_primitive,
                      skip_geometry=skip_geometry)
-        occluded = _bytes_out("out", out, rays.shape)
+        occluded = _bytes_out("out", out, rays.shape, rays.keep)
         call = _Call("exact", False, research)
         with self._gate.shared:
             self._check(lib.cgt_occluded_rays(self._traced, rays.struct, _arrays.pointer(occluded.view), call.struct))
@@ -142,7 +144,7 @@ class Rays:
         """
         points, shape, keep = self._points(position, t_min=t_min, t_max=t_max, mask=mask,
                                            skip_primitive=skip_primitive, skip_geometry=skip_geometry)
-        occluded = _bytes_out("out", out, shape)
+        occluded = _bytes_out("out", out, shape, keep)
         struct = ffi.new("cgt_light *", instance("light", light, Light)._values())
         with self._gate.shared:
             self._check(lib.cgt_occluded_points(self._traced, struct, points, _arrays.pointer(occluded.view), ffi.NULL))
@@ -157,15 +159,21 @@ class Rays:
         ----------
         position : (..., 3)
         rule : {'parity', 'winding'}, optional
-            An odd number of surfaces lies ahead; or not as many lead in as out, for meshes that overlap themselves.
+            When a point is inside of a mesh, each geometry by itself: an odd number of its surfaces lies ahead; or not
+            as many lead in as out, for meshes that overlap themselves. Inside of any geometry is inside.
         mask : (...) uint32, optional
 
         Returns
         -------
         (...) bool
+
+        Raises
+        ------
+        Unsupported
+            A geometry is one of capsules.
         """
         points, shape, keep = self._points(position, mask=mask)
-        inside = _bytes_out("out", out, shape)
+        inside = _bytes_out("out", out, shape, keep)
         how = ffi.new("cgt_inside_options *", {"rule": enum_value("CGT_INSIDE_", rule, "rule")})
         with self._gate.shared:
             self._check(lib.cgt_points_inside(self._traced, points, how, _arrays.pointer(inside.view), ffi.NULL))
@@ -287,7 +295,7 @@ class Rays:
             Their hits, with t, primitive and geometry.
         inside, outside : float, optional
             Indices of refraction; inside 0: opaque, a mirror. outside 0: 1.
-        inside_of_ray, outside_of_ray : (n,) float32, optional
+        inside_of_ray, outside_of_ray : (...) float32, optional
             The same of the surface that each ray hits.
         surfaces : sequence of str, optional
             Of position, normal, start, length, front: what is wanted of the surfaces.
@@ -321,7 +329,10 @@ class Rays:
         with self._gate.shared:
             self._check(lib.cgt_bounce_rays(self._traced, rays.struct, found, media, surface, *structs, ffi.NULL))
         del keep, more
-        return Fields(new[0].arrays), Fields(new[1].arrays), Fields(places.arrays)
+        reflected, refracted, found_surfaces = (
+            Fields({name: a.reshape(rays.shape + a.shape[1:]) for name, a in outputs.arrays.items()})
+            for outputs in (*new, places))
+        return reflected, refracted, found_surfaces
 
     def trace_bounced_rays(self, rays: Fields, fields: Sequence[str] = ("t", "primitive", "geometry")) -> Hits:
         """Traces rays of `bounce_rays`; those inside spheres meet these again at their far side."""

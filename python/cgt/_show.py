@@ -15,7 +15,7 @@ from typing import Any, List, Optional, Sequence, Union
 import numpy as np
 
 from ._arrays import array_of
-from ._figure_data import FigureData, columns_of
+from ._figure_data import FigureData, columns_of, of_objects
 from ._native import InvalidArgument
 from .colors import code_of, code_of_light, light_of
 from .figure import Figure
@@ -97,6 +97,8 @@ def show(data, radii=None, colors: Any = None, *, bonds: Any = False, window: Op
         options["color"] = colors
     elif colors is not None:
         a = array_of("colors", colors, np.nan)
+        if a.dtype == object:
+            a = of_objects("colors", a)
         if not a.ndim:
             raise InvalidArgument(f"colors: {colors!r}: must be a colour, or one each")
         is_one = a.shape == (3,) and map is None and not (hasattr(data, "__len__") and len(data) == 3)

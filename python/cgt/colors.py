@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._arrays import F4, F8, U1, U2, U4, array_of, check_shape, numbers
-from ._native import InvalidArgument, load_part, real, switch
+from ._native import InvalidArgument, encoded, load_part, real, switch
 
 ffi, lib = load_part("picture")
 STEPS = 1024  # as in cgt-render
@@ -125,7 +125,7 @@ def unknown() -> np.ndarray:
 
 def palette(map: Optional[str] = None) -> np.ndarray:
     """The 1,024 colours of a map and `unknown`, for `cgt.Look` with the entries of `entries`: (1025, 3) float32."""
-    found = lib.cgt_find_colormap(ffi.NULL if map is None else str(map).encode(errors="replace"))
+    found = lib.cgt_find_colormap(ffi.NULL if map is None else encoded("map", str(map)))
     if found == ffi.NULL:
         raise InvalidArgument(f"map: {map!r}: one of {', '.join(maps())}")
     return np.array([_color(lib.cgt_get_map_color, found, k / (STEPS - 1)) for k in range(STEPS)] + [unknown()], F4)

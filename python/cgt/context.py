@@ -7,20 +7,25 @@ import logging
 from typing import Optional, Tuple
 
 from ._gate import nesting
-from ._native import InvalidArgument, Plain, exception_of, ffi, lib, switch, whole
+from ._native import InvalidArgument, Plain, encoded, exception_of, ffi, keep_error, lib, switch, whole
 
 _LEVELS = (logging.ERROR, logging.WARNING, logging.INFO)
 _logger = logging.getLogger("cgt")
 
 
-@ffi.callback("void(void *, cgt_log_level, const char *)")
+_errors: list = []  # of loggers: Ctrl-C, most likely
+
+
+@ffi.callback("void(void *, cgt_log_level, const char *)", onerror=keep_error(_errors))
 def _log(_user, level, message):
     with nesting:
         _logger.log(_LEVELS[min(level, 2)], "%s", ffi.string(message).decode(errors="replace"))
 
 
 def check(handle, result: int) -> None:
-    """Raises the exception of a cgt_result, with the message of the context of this C handle."""
+    """Raises what a logger raised, or the exception of a cgt_result, with the message of this C handle's context."""
+    if _errors:
+        raise _errors.pop()
     if result:
         text = ffi.new("char[512]")
         lib.cgt_context_get_error_message(handle, text, 512)
@@ -69,7 +74,7 @@ class Context(Plain):
         made = ffi.new("cgt_context **")
         if not isinstance(variant, (str, type(None))):
             raise InvalidArgument(f"variant: {variant!r}: one of {', '.join(variants())}")
-        name = ffi.NULL if variant is None else ffi.new("char[]", variant.encode(errors="replace"))
+        name = ffi.NULL if variant is None else ffi.new("char[]", encoded("variant", variant))
         options = ffi.new("cgt_context_options *", {"threads": whole("threads", threads), "variant": name})
         if switch("log", log):
             options.log.write = _log

@@ -11,7 +11,8 @@ import os
 import re
 import shutil
 import subprocess
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
+from contextlib import contextmanager, nullcontext
 from types import SimpleNamespace
 from typing import Any, Dict, List, Optional, Tuple
 
@@ -19,7 +20,7 @@ import numpy as np
 
 from . import _arrays
 from ._arrays import U1, Hold
-from ._figure_data import FigureData, frames_of, is_run, take
+from ._figure_data import FigureData, frames_of, is_read_once, is_run, take
 from ._gate import Gate
 from ._native import (Error, InvalidArgument, Plain, exception_of, instance, load_part, real, struct_values, switch,
                       text_of_path, whole)
@@ -30,6 +31,9 @@ from .picture import check_png, encode_png
 from .trajectory import Trajectory, TrajectorySlice
 
 ffi, lib = load_part("figure")
+_SHOW = lib.cgt_figure_show
+_FOUND = ("_handle", "_mesh_origin", "_origin", "_words", "_looked", "_shown", "_again", "_pixels", "_counts",
+          "_has_ended")  # of frames, by C and here
 
 
 def _list_options() -> Dict[str, SimpleNamespace]:
@@ -185,6 +189,9 @@ class Figure(Plain):
     they are then, which is the first that they look at: what follows the first of several is that one's. After a survey
     they have only the first three: the copy has to make it anew.
 
+    What is refused changes nothing: the survey stays, and the frame before is shown again, of its arrays as they are
+    then.
+
     One thread at a time uses a figure: others get `InUse`. All that takes time releases Python's lock.
 
     Examples
@@ -196,7 +203,8 @@ class Figure(Plain):
     """
 
     __slots__ = ("_handle", "_context", "_context_handle", "_gate", "_texts", "_notices", "_origin", "_words",
-                 "_looked", "_shown", "_again", "_pixels", "_counts", "_mesh", "_view", "_has_lens")
+                 "_looked", "_shown", "_again", "_pixels", "_counts", "_has_ended", "_mesh", "_mesh_origin", "_view",
+                 "_has_lens")
     _unmade = {"_made": False, "_handle": None, "_gate": Gate("figure")}
     _handle: Any
 
@@ -210,6 +218,7 @@ class Figure(Plain):
         self._texts: Dict[str, List[Optional[str]]] = {}
         self._notices: List[str] = []
         self._mesh: Optional[FigureData] = None
+        self._mesh_origin: Optional[list] = None  # less which C has it
         self._view: Optional[Camera] = None  # what was assigned or fitted
         self._has_lens = False  # whether ortho is of the option camera, and goes with it
         self._forget()
@@ -238,7 +247,7 @@ class Figure(Plain):
 
     def _rest(self) -> dict:
         with self._gate.alone:
-            frame, is_shown = (self._again or self._shown) if self._looked != "survey" else None, self._again is None
+            frame, is_shown = self._last, self._again is None
             if frame is not None and frame.number is None and is_shown:
                 frame = copy.copy(frame)
                 frame.number = self._counts[1] - 1
@@ -278,6 +287,22 @@ class Figure(Plain):
         self._again = again
         self._pixels: Optional[np.ndarray] = None
         self._counts = [0, 0]  # of frames that were looked at, shown
+        self._has_ended = False  # the survey: another frame begins the next one
+
+    @property
+    def _last(self) -> Optional[FigureData]:
+        """The frame that is to be shown again where all is forgotten; none after a survey, which is to be made anew."""
+        return None if self._looked == "survey" else self._again or self._shown
+
+    def _begin(self, again: Optional[FigureData]) -> None:
+        """Within the gate: forgets all frames, and so does C, whose survey may be open."""
+        self._forget(again)
+        self._check(lib.cgt_figure_set_lines(self._open, b""))
+
+    def _bring_back(self) -> None:
+        """Shows the frame again that is to be."""
+        if self._again is not None:
+            self._show(self._again)
 
     @property
     def _open(self):
@@ -317,16 +342,18 @@ class Figure(Plain):
 
     def _take(self, texts) -> None:
         with self._gate.alone:
-            figure, trial = self._open, self._create()
-            if texts == self._texts:
-                return
-            lines = [f"{name} = {value}" if value is not None else name for name in texts for value in texts[name]]
-            settings = ffi.new("char[]", os.fsencode("\n".join(lines)))
-            for handle in (trial, figure):  # what is refused leaves this one as it is
-                self._check(lib.cgt_figure_unset(handle, ffi.NULL), handle)
-                self._check(lib.cgt_figure_set_lines(handle, settings), handle)
-            self._texts = texts
-            self._forget((self._shown or self._again) if self._looked != "survey" else None)
+            if self._open and texts != self._texts:
+                self._renew(texts, self._last)
+
+    def _renew(self, texts, again: Optional[FigureData] = None) -> None:
+        """Within the gate: another figure of C's, with these options; what they refuse leaves the one that there is."""
+        lines = [f"{name} = {value}" if value is not None else name for name in texts for value in texts[name]]
+        handle = self._create()
+        self._check(lib.cgt_figure_set_lines(handle, os.fsencode("\n".join(lines))), handle)
+        if self._view is not None:
+            lib.cgt_figure_set_camera(handle, self._view._struct)
+        self._handle, self._texts, self._mesh_origin = handle, texts, None  # it has no mesh yet
+        self._forget(again)
 
     @property
     def options(self) -> Dict[str, Any]:
@@ -357,15 +384,21 @@ class Figure(Plain):
     # ---- frames ----
 
     def _give(self, call, data: FigureData, number: int) -> None:
-        """Within the gate: a frame for C."""
+        """Within the gate: a frame for C, which takes nothing from one that it refuses."""
         keep: list = []
-        if self._origin is None:
-            self._origin = list(data.origin) if data.origin else [0.0, 0.0, 0.0]
-        c = data.fill(ffi, number, self._origin, keep, self._words)
+        origin = self._origin or list(data.origin or (0.0, 0.0, 0.0))
+        words = {name: list(known) for name, known in self._words.items()}
+        c = data.fill(ffi, number, origin, keep, words)
+        if self._mesh is not None and self._mesh_origin != origin:
+            self._give_mesh(self._mesh, origin)
+        if call is _SHOW:  # until C has it, however this ends
+            self._counts[1] -= self._shown is not None
+            self._again, self._shown, self._pixels = self._shown or self._again, None, None
+            self._has_ended = True
         try:
             self._check(call(self._open, c))
+            self._origin, self._words = origin, words
         except Error as error:
-            self._forget()
             for name, sentence in data.odd.items():
                 if f'column "{name}"' in str(error):
                     raise InvalidArgument(sentence) from None
@@ -373,25 +406,27 @@ class Figure(Plain):
             if unread:
                 raise InvalidArgument(f"{error}; the file has it: cgt.read(..., columns={unread})") from None
             raise
+        except BaseException:  # Ctrl-C: C may have it
+            if call is not _SHOW:
+                self._begin(self._last)
+            raise
         del keep
 
     def _look(self, data: FigureData, who: str = "survey") -> None:
-        with self._gate.alone:
-            if self._shown is not None:
-                self._forget()
-            self._give(lib.cgt_figure_survey, data, self._counts[0])
-            self._counts[0] += 1
-            self._looked = who
+        """Within the gate."""
+        self._give(lib.cgt_figure_survey, data, self._counts[0])
+        self._counts[0] += 1
+        self._looked = who
 
     def _move_origin(self) -> bool:
-        """Whether all that was looked at lies so far from 0 that it has to be given less an origin, once more."""
-        with self._gate.alone:
-            origin = ffi.new("double[3]")
-            is_far = lib.cgt_figure_get_origin(self._open, origin)
-            if is_far:
-                self._forget()
-                self._origin = list(origin)
-            return is_far
+        """Within the gate: whether all that was looked at is so far from 0 that it has to be given less an origin."""
+        origin = ffi.new("double[3]")
+        is_far = lib.cgt_figure_get_origin(self._open, origin)
+        self._has_ended = True
+        if is_far:
+            self._begin(self._again)
+            self._origin = list(origin)
+        return is_far
 
     def survey(self, data, **more) -> "Figure":
         """Looks at a frame, or at all frames of a run, and returns the figure: camera, ranges and legend fit them all.
@@ -407,20 +442,40 @@ class Figure(Plain):
         if is_run(data):
             self._survey_run(data, more)
         else:
-            self._look(take(data, **more))
+            frame = take(data, **more)
+            with self._anew() if self._has_ended else nullcontext(), self._gate.alone:
+                self._look(frame)
+                self._again = None
         return self
 
-    def _survey_run(self, run, more) -> None:
+    @contextmanager
+    def _anew(self):
+        """A survey from its beginning, by another figure of C's; where it fails, all is what it was before."""
         with self._gate.alone:
-            self._open
-            self._forget()
-        for _ in range(2):
-            for frame in self._frames(run):
-                self._look(take(frame, **more))
-            if not self._counts[0]:
-                raise InvalidArgument("data: a run without frames")
-            if isinstance(run, Iterator) or not self._move_origin():
-                break
+            before = {name: getattr(self, name) for name in _FOUND}
+        try:
+            with self._gate.alone:
+                if self._open:
+                    self._renew(self._texts)
+            yield
+        except BaseException:
+            with self._gate.alone:
+                for name, value in before.items() if self._handle is not None else ():
+                    setattr(self, name, value)
+            raise
+
+    def _survey_run(self, run, more) -> None:
+        with self._anew():
+            for _ in range(2):
+                for frame in self._frames(run):
+                    data = take(frame, **more)
+                    with self._gate.alone:
+                        self._look(data)
+                if not self._counts[0]:
+                    raise InvalidArgument("data: a run without frames")
+                with self._gate.alone:
+                    if is_read_once(run) or not self._move_origin():
+                        break
 
     def _frames(self, run):
         """Frames of a run; of one of cgt.read with the columns that options name, less the origin."""
@@ -441,29 +496,43 @@ class Figure(Plain):
         return self
 
     def _show(self, data: FigureData) -> None:
-        if not self._looked:
-            self._look(data, "show")
-            if self._move_origin():
-                self._look(data, "show")
         with self._gate.alone:
-            self._pixels = self._again = None
-            self._give(lib.cgt_figure_show, data, self._counts[1])
-            self._counts[1] += 1
-            self._shown = data
+            is_first, again = not self._looked, self._again
+            number = self._counts[1]
+            try:
+                if is_first:
+                    self._look(data, "show")
+                    if self._move_origin():
+                        self._look(data, "show")
+                self._give(_SHOW, data, number)
+                self._counts[1] = number + 1
+                self._shown, self._again = data, None
+            except BaseException:
+                if is_first:  # what was found is of this frame
+                    self._begin(again)
+                raise
 
     def set_mesh(self, mesh, **more) -> "Figure":
-        """Sets a mesh that stands still among the particles, such as walls; None: none. Returns the figure."""
+        """Sets a mesh that stands still among the particles, such as walls; None: none. Returns the figure.
+
+        What is shown, and a survey, are as after `set`.
+        """
         return self._stand(None if mesh is None else take(mesh, **more))
 
     def _stand(self, data: Optional[FigureData]) -> "Figure":
         with self._gate.alone:
-            keep: list = []
-            c = ffi.NULL if data is None else data.fill(ffi, 0, self._origin or data.origin or [0.0] * 3, keep, {})
-            self._check(lib.cgt_figure_set_mesh(self._open, c))
+            self._give_mesh(data, self._origin or (data and data.origin) or [0.0] * 3)
             self._mesh = data
-            self._forget()
-            del keep
+            self._forget(self._last)
         return self
+
+    def _give_mesh(self, data: Optional[FigureData], origin) -> None:
+        """Within the gate: a mesh for C, which begins anew, less the origin of the frames."""
+        keep: list = []
+        c = ffi.NULL if data is None else data.fill(ffi, 0, origin, keep, {})
+        self._check(lib.cgt_figure_set_mesh(self._open, c))
+        self._mesh_origin = list(origin)
+        del keep
 
     @property
     def camera(self) -> Camera:
@@ -472,6 +541,7 @@ class Figure(Plain):
         With the option ortho it is orthographic, without it no such one can be assigned.
         """
         c = ffi.new("cgt_camera *")
+        self._bring_back()
         with self._gate.alone:
             result = lib.cgt_figure_get_camera(self._open, c)
         if result:
@@ -500,6 +570,7 @@ class Figure(Plain):
 
     def fit(self) -> "Figure":
         """Moves the camera so that it shows all of the shown frame, in the same direction; returns the figure."""
+        self._bring_back()
         with self._gate.alone:
             self._check(lib.cgt_figure_fit(self._open))
             self._pixels = None
@@ -515,8 +586,10 @@ class Figure(Plain):
         -------
         SimpleNamespace
             is_hit; is_data: a particle or triangle, whose number is `element`; else a bond, a line, the floor, the
-            mesh; t, place: the distance from the camera, and where, less the data's origin.
+            mesh; place: where, less the data's origin; t: how far along the pixel's ray, in units of its direction,
+            which is not normalised (`cgt.camera_rays`).
         """
+        self._bring_back()
         hit = ffi.new("cgt_figure_hit *")
         width, height = self.size
         with self._gate.alone:
@@ -530,8 +603,7 @@ class Figure(Plain):
         return self._draw().copy()
 
     def _draw(self) -> np.ndarray:
-        if self._again is not None:
-            self._show(self._again)
+        self._bring_back()
         if self._open and self._shown is None:
             raise InvalidArgument("figure: nothing is shown: show() a frame; after a survey set() asks for both anew")
         width, height = self.size
@@ -561,6 +633,7 @@ class Figure(Plain):
 
     def _draw_quick(self, shrink: int) -> np.ndarray:
         """The shown frame without shadows, one ray for so many pixels along each edge."""
+        self._bring_back()
         width, height = self.size
         with self._gate.alone:
             pixels = np.zeros((height, width, 3), U1)
@@ -609,7 +682,7 @@ class Figure(Plain):
         survey, progress = switch("survey", survey), switch("progress", progress)
         with _Encoder(path, self.size, fps, quality) as encoder:
             if survey:
-                run = list(run) if isinstance(run, Iterator) else run
+                run = list(run) if is_read_once(run) else run
                 self._survey_run(run, more)
             for frame in _with_progress(self._frames(run), run, progress):
                 self._show(take(frame, **more))
@@ -660,6 +733,8 @@ class _Encoder:
                                                              self._COLORS + x264 + ["-movflags", "+faststart"])}
         if ending not in ways:
             raise InvalidArgument(f"path: {ending or self.path}: movies are {', '.join(ways)}")
+        if os.path.isdir(self.path):
+            raise InvalidArgument(f"path: {self.path}: it is a folder")
         if not 0 < real("fps", fps) <= 1000:
             raise InvalidArgument(f"fps: {fps}: must be above 0 and at most 1000")
         if shutil.which("ffmpeg") is None:
@@ -687,12 +762,14 @@ class _Encoder:
         if kind is not None:
             self.process.kill()
         said = self.process.communicate()[1].decode(errors="replace").strip()
-        if kind is None and self.count and self.process.returncode == 0:
-            os.replace(self.temporary, self.path)
-            return
-        if os.path.exists(self.temporary):
-            os.remove(self.temporary)
+        is_whole = kind is None and self.count and self.process.returncode == 0
+        try:
+            if is_whole:
+                os.replace(self.temporary, self.path)
+        finally:
+            if os.path.exists(self.temporary):
+                os.remove(self.temporary)
         if kind is None and not self.count:
             raise InvalidArgument("run: without frames")
-        if kind is None:
+        if kind is None and not is_whole:
             raise Error(f"{self.path}: ffmpeg: {said.splitlines()[0] if said else 'it failed'}")

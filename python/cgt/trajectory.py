@@ -175,7 +175,7 @@ class Trajectory(Plain):
     Python's.
     """
 
-    __slots__ = ("_handle", "_gate", "_keep", "_wanted", "_next", "_count", "_failed")
+    __slots__ = ("_handle", "_gate", "_keep", "_wanted", "_next", "_count", "_failed", "_has_ended")
     _unmade = {"_made": False, "_handle": None, "_gate": Gate("trajectory")}
 
     def __init__(self, paths, columns: Sequence[str], options: dict):
@@ -204,7 +204,7 @@ class Trajectory(Plain):
         _check(handle, lib.cgt_trajectory_want_columns(handle, ffi.new("const char *[]", names), len(names)))
         self._next, self._wanted = 0, set(columns)
         self._count: Optional[int] = None
-        self._failed = False  # C is behind an error, not before the frame _next
+        self._failed = self._has_ended = False  # C is behind an error or Ctrl-C, not before the frame _next; at the end
         self._gate, self._handle, self._made = Gate("trajectory"), handle, True
 
     def __repr__(self) -> str:
@@ -216,12 +216,16 @@ class Trajectory(Plain):
             raise InvalidArgument(f"trajectory: it {'is closed' if self._made else 'has not run its __init__'}")
         return self._handle
 
-    def _check(self, result: int) -> bool:
-        try:
-            return _check(self._open, result)
-        except ReadError:
-            self._failed = True
-            raise
+    def _move(self, call, *arguments) -> bool:
+        """A call by which C moves: where it is nobody knows until `_stand` tells, since Ctrl-C may come in between."""
+        handle, self._failed = self._open, True
+        self._has_ended = not _check(handle, call(handle, *arguments))
+        if self._has_ended:
+            self._failed = False
+        return not self._has_ended
+
+    def _stand(self, number: int) -> None:
+        self._next, self._failed = number, False
 
     def _take_warnings(self) -> list:
         texts = []
@@ -242,23 +246,23 @@ class Trajectory(Plain):
         if number < self._next or (self._failed and lib.cgt_trajectory_can_rewind(self._open)):
             self._rewind()
         while self._next < number:
-            if not self._check(lib.cgt_trajectory_skip(self._open)):
+            if not self._move(lib.cgt_trajectory_skip):
                 return False
-            self._next += 1
+            self._stand(self._next + 1)
         return True
 
     def _rewind(self) -> None:
-        self._check(lib.cgt_trajectory_rewind(self._open))
-        self._next, self._failed = 0, False
+        self._move(lib.cgt_trajectory_rewind)
+        self._stand(0)
 
     def _frame(self, number: Optional[int] = None) -> Optional[TrajectoryFrame]:
         """A frame by its number, or the next one; None behind the last."""
         frame, made = ffi.new("cgt_trajectory_frame *"), None
         with self._gate.alone:
-            handle = self._open
-            if self._go_to(self._next if number is None else number) and self._check(
-                    lib.cgt_trajectory_read(handle, frame)):
-                self._next += 1
+            if self._go_to(self._next if number is None else number) and self._move(lib.cgt_trajectory_read, frame):
+                self._stand(frame.number + 1)
+                if number not in (None, frame.number):
+                    raise ReadError(f"frame {number}: a call was interrupted, and the pipe is behind it")
                 made = TrajectoryFrame(frame)
                 if self._count is not None and self._next > self._count:
                     self._count = None  # the file has grown
@@ -276,11 +280,11 @@ class Trajectory(Plain):
         return self._frame()
 
     def __iter__(self) -> Iterator[TrajectoryFrame]:
-        number = 0 if self.can_rewind else self._next
+        number, had_ended = 0 if self.can_rewind else None, self._has_ended
         while (frame := self._frame(number)) is not None:
             yield frame
-            number += 1
-        if not number and self._next:
+            number, had_ended = None if number is None else number + 1, False
+        if number is None and had_ended:
             raise InvalidArgument("trajectory: a pipe was read to its end: keep=True lets it be read again")
 
     def __len__(self) -> int:
@@ -298,8 +302,8 @@ class Trajectory(Plain):
         if self._failed and lib.cgt_trajectory_can_rewind(self._open):  # else C repeats what it was
             self._rewind()
         count = ffi.new("uint64_t *")
-        self._check(lib.cgt_trajectory_count_frames(self._open, count))
-        self._next, self._failed = 0, False
+        self._move(lib.cgt_trajectory_count_frames, count)
+        self._stand(0)
         return count[0]
 
     def __bool__(self) -> bool:
@@ -362,7 +366,9 @@ class Trajectory(Plain):
         more = (name for name in first.column_names if name in text and name not in self._given["columns"])
         names = [_c_path("columns", name) for name in (*self._given["columns"], *more)]
         with self._gate.alone:
-            self._check(lib.cgt_trajectory_want_columns(self._open, ffi.new("const char *[]", names), len(names)))
+            handle, array = self._open, ffi.new("const char *[]", names)
+            self._failed = True  # until it is at the first frame
+            _check(handle, lib.cgt_trajectory_want_columns(handle, array, len(names)))
             if origin is not None:
                 lib.cgt_trajectory_set_origin(self._open, origin)
             self._rewind()

@@ -218,7 +218,7 @@ class RayMeshIntersector:
                 ray, t, triangle = (a[number < max_hits] for a in (ray, t, triangle))
         else:
             triangle, t = self._nearest(rays)
-            ray = np.flatnonzero(triangle >= 0)
+            ray = np.flatnonzero((triangle >= 0) & (max_hits != 0))
             triangle = triangle[ray]
             t, _ = self._distances(rays, ray, t[ray], triangle)
         if not return_locations:

@@ -32,7 +32,8 @@ FUNCTIONS_LEFT_OUT = {
     **{"cgt_camera_fit_" + name: "Camera.fit" for name in ("create", "release", "add", "add_box", "apply")},
     "cgt_srgb_from_linear": "cgt_srgb_encode, for colours that are given",
     # cgt-figure
-    "cgt_figure_set": "set_lines, all at once", "cgt_figure_set_source": "messages of data, which have no path",
+    "cgt_figure_set": "set_lines, all at once", "cgt_figure_unset": "another figure of C's has the other options",
+    "cgt_figure_set_source": "messages of data, which have no path",
     "cgt_figure_needs_frame": "a survey looks at all that it is given",
     "cgt_figure_set_stop": "pictures end by themselves",
     "cgt_figure_get_chosen": "Figure.camera; another figure chooses anew", "cgt_figure_get_up": "Figure.camera",

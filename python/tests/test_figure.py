@@ -11,6 +11,7 @@ import pickle
 import shutil
 import subprocess
 import sys
+import threading
 import types
 from fractions import Fraction
 
@@ -582,3 +583,142 @@ def test_three_numbers_are_a_colour_for_all():
         cgt.show(x, 0.3, [200, 60, 60], **like)
     values = cgt.show(x[:3], 0.3, [1.0, 2, 3], **like).pixels
     assert not np.array_equal(values, cgt.show(x[:3], 0.3, "red", **like).pixels)
+
+
+def test_arrays_that_were_shown_keep_their_memory_and_shape():
+    names = np.array(["A", "B"] * 20)
+    given = {"columns": {"heat": np.arange(40.0), "name": names}, "bonds": np.array([[0, 1], [2, 3]], np.uint32)}
+    places = np.random.default_rng(0).uniform(-1, 1, (40, 3))
+    corners = np.array([[0, 1, 2], [3, 4, 5]], np.uint32)
+    figure = cgt.Figure(**SIZE, color="heat", bonds=True).show(places, radius=0.1, **given)
+    wall = cgt.Figure(**SIZE).set_mesh((places, corners)).show((places, corners))
+    wanted, walled = figure.pixels, wall.pixels
+    for a in (places, given["columns"]["heat"], names, given["bonds"], corners):
+        with pytest.raises(ValueError):
+            a.resize(2 * a.size, refcheck=False)
+        a.shape = (a.size, 1)
+    for way in (copy.copy, copy.deepcopy, lambda f: pickle.loads(pickle.dumps(f)), lambda f: f):
+        assert same(way(figure).set(title="").set(title=None).pixels, wanted)
+        assert same(way(wall).set_mesh(None).set_mesh((places.reshape(40, 3), corners.reshape(2, 3))).pixels, walled)
+    places.__setstate__((1, (3,), places.dtype, False, bytes(24)))
+    with pytest.raises(BufferError, match="positions: the array's memory was replaced"):
+        figure.set(title="").draw()
+
+
+def test_a_frame_that_is_refused_leaves_the_others():
+    style = {"style": "plain", "color": "v"}
+    heat, bad = {"radius": 0.5, "columns": {"v": [1, 2, 3]}}, {"columns": {"u": [1, 2, 3]}}
+    more, run = {"radius": 0.5, "columns": {"v": [0, 9, 20]}}, [X, 4 * X]
+
+    def refused():
+        return pytest.raises(cgt.InvalidArgument, match='no column "v"')
+
+    def new():
+        return cgt.Figure(**SIZE, **style)
+
+    numbered = new().show(X, **heat).show(X, **heat)
+    with refused():
+        numbered.show(X, **bad)
+    assert numbered.draw() is not None and numbered._counts == [1, 2]  # by the number that it had
+    first, wide = new().show(X, **heat), new().survey(X, **heat).survey(4 * X, **more)
+    wanted, surveyed = first.pixels, wide.show(X, **heat).pixels
+    assert not same(wanted, surveyed)
+    for figure, pictures in ((first, wanted), (wide, surveyed)):
+        figure.show(3 * X, **more)
+        with refused():
+            figure.show(X, **bad)
+        assert same(figure.draw(), figure.show(3 * X, **more).pixels)
+        figure.show(X, **heat)
+        assert same(figure.pixels, pictures) and same(figure.show(X, **heat).pixels, pictures)
+    with refused():
+        first.survey(X, **bad)
+    assert same(first.pixels, wanted)
+    # a survey that goes on, and those of a run
+    figure = new().survey(X, **heat)
+    with refused():
+        figure.survey(9 * X, **bad)
+    assert same(figure.survey(4 * X, **more).show(X, **heat).pixels, surveyed)
+    for again in (lambda f: f.show(X, **heat), lambda f: f.survey([X], **heat).show(X, **heat),
+                  lambda f: f.survey(X, **heat).show(X, **heat)):
+        for failing in ([9 * X, None], (x if x is X else 1 / 0 for x in (X, 9 * X))):
+            figure = new()
+            with pytest.raises((cgt.InvalidArgument, ZeroDivisionError)):
+                figure.survey(failing, **heat)
+            assert same(again(figure).pixels, wanted)
+    for figure, pictures in ((new().show(X, **heat), wanted), (wide, surveyed)):
+        for failing in (lambda f: f.survey([*run, None], **heat), lambda f: f.survey(9 * X, **bad),
+                        lambda f: f.survey([9 * X], **bad)):
+            kept = figure.draw()
+            with pytest.raises(cgt.InvalidArgument, match="positions|no column"):
+                failing(figure)
+            assert figure.pixels is not kept and same(figure.pixels, pictures, figure.draw())
+            assert same(figure.show(2 * X, **more).pixels, figure.draw())
+            figure.show(X, **heat)
+    turned, square = wide.camera, (X - 1, [[0, 1, 2]])
+    turned.orbit(30)
+    wide.camera = turned
+    other = new().set_mesh(square).survey(run, **heat).show(X, **heat)
+    other.camera = turned
+    wide.set_mesh(square).survey(run, **heat).show(X, **heat)  # camera and mesh stay
+    assert same(wide.pixels, other.pixels)
+    empty = new()
+    with refused():
+        empty.show(9 * X, **bad)
+    assert same(empty.show(X, **heat).pixels, wanted)
+
+
+def test_a_mesh_stands_where_the_frames_are():
+    far = np.array([1e7, -3e6, 0])
+    square = np.array([[-1, -1, -1], [5, -1, -1], [5, 2, -1.0]])
+    ways = (lambda f, x: f.set_mesh((square + x, [[0, 1, 2]])).show(X + x, radius=0.5),
+            lambda f, x: f.show(X + x, radius=0.5).set_mesh((square + x, [[0, 1, 2]])),
+            lambda f, x: f.set_mesh((square + x, [[0, 1, 2]])).survey([X + x]).show(X + x, radius=0.5))
+    for way in ways:
+        near, moved = (way(cgt.Figure(**SIZE, style="plain"), x) for x in (0, far))
+        assert near.pick(30, 20).is_hit and same(near.pixels, moved.pixels)
+        assert way is ways[2] or same(near.pixels, *(c(moved).pixels for c in (copy.copy, copy.deepcopy)))
+    figure = ways[0](cgt.Figure(**SIZE, style="plain"), far)
+    assert figure.show(X + far).set_mesh(None).pixels.std() > 5
+
+
+def test_what_is_shown_anew_is_there_for_all_calls():
+    for change in (lambda f: f.set(color="red"), lambda f: f.set_mesh((X - 1, [[0, 1, 2]]))):
+        for ask in (lambda f: f.camera.eye.tolist(), lambda f: f.pick(30, 20), lambda f: f.fit().camera.eye.tolist(),
+                    lambda f: f._draw_quick(2).tolist()):
+            figures = [change(cgt.Figure(**SIZE).show(X)) for _ in range(2)]
+            figures[0].draw()
+            assert ask(figures[0]) == ask(figures[1])
+
+
+def test_zeros_in_texts_are_refused():
+    for columns in ({"a\0b": [1, 2, 3]}, {"a": ["x\0y", "z", "z"]}, {"a": [b"x\0y", b"z", b"z"]}):
+        with pytest.raises(cgt.InvalidArgument, match="^columns: .*a zero is in it"):
+            cgt.Figure().show(X, columns=columns)
+    for call in (lambda: cgt.colors.palette("viridis\0x"), lambda: cgt.Context(variant=cgt.variants()[0] + "\0x")):
+        with pytest.raises(cgt.InvalidArgument, match="a zero is in it"):
+            call()
+
+
+def test_colours_may_lack():
+    eye, values = {"data": np.eye(3), "radii": 0.5, **SIZE}, [0, np.nan, 1]
+    assert same(cgt.show(**eye, colors=[0, None, 1]).pixels, cgt.show(**eye, colors=values).pixels)
+    assert same(cgt.show(**eye, color="c", columns={"c": values}).pixels, cgt.show(**eye, colors=values).pixels)
+
+
+@pytest.mark.skipif(not shutil.which("ffmpeg"), reason="movies need ffmpeg")
+def test_movies_of_pipes_and_into_folders(tmp_path):
+    pipe, movies = tmp_path / "pipe.xyz", tmp_path / "movies"
+    os.mkfifo(pipe)
+    movies.mkdir()
+    writer = threading.Thread(target=lambda: pipe.write_text("1\nframe\nO 0 0 0\n" * 3))
+    writer.start()
+    with cgt.read(pipe) as run:
+        figure = cgt.Figure(**SIZE).movie(movies / "a.mkv", run, progress=False)
+        writer.join()
+        assert figure._counts == [3, 3]
+        with pytest.raises(cgt.InvalidArgument, match="a pipe was read to its end"):
+            figure.movie(movies / "b.mkv", run, progress=False)
+    (movies / "c.mp4").mkdir()
+    with pytest.raises(cgt.InvalidArgument, match="path: .*c.mp4: it is a folder"):
+        figure.movie(movies / "c.mp4", [X], progress=False)
+    assert sorted(os.listdir(movies)) == ["a.mkv", "c.mp4"]

@@ -5,6 +5,7 @@ import copy
 import gc
 import logging
 import pickle
+import sys
 import threading
 import weakref
 
@@ -606,3 +607,65 @@ def test_structures_of_the_papers(cloud, rays, scene):
     s.commit()
     s.trace_camera(cgt.Camera((0, 0, 4)), 64, 64, research=options)
     assert research.scene_statistics(s).resolution == [8, 8, 8] and options.statistics.packet_size == 8
+
+
+def raised_at_entry(names, call):
+    """What a call raises where Ctrl-C comes before the first line of a callback of these names."""
+    def interrupt(frame, event, _argument):
+        if event == "call" and frame.f_code.co_name in names and frame.f_code.co_filename.startswith(cgt.__path__[0]):
+            sys.settrace(None)
+            raise KeyboardInterrupt
+
+    sys.settrace(interrupt)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            call()
+    finally:
+        sys.settrace(None)
+
+
+def test_ctrl_c_reaches_the_caller_from_callbacks(cloud):
+    with cgt.Scene(cgt.Context(threads=1, log=True)) as s:
+        s.add(cgt.Spheres(*cloud))
+        raised_at_entry({"_log"}, s.commit)
+        s.commit()
+        tiles = []
+        raised_at_entry({"call"}, lambda: s.trace_camera(cgt.Camera(), 200, 130, (), visitor=tiles.append))
+        assert not tiles and s.trace_camera(cgt.Camera(), 200, 130, (), visitor=tiles.append) and tiles
+
+
+def test_outputs_are_not_what_is_read(scene, rays):
+    org, dir = (a[:8].copy() for a in rays)
+    both, bytes_ = np.zeros((8, 4), "f4"), np.zeros(96, "u1")
+    both[:, :3], read = org, bytes_.view("f4").reshape(8, 3)
+    read[:] = org
+    frame = scene.trace_camera(cgt.Camera((0, 0, 4)), 8, 6)
+    t_max, light = np.full(8, 9, "f4"), cgt.Light((0, 0, 9))
+    for call in (
+        lambda: scene.trace_rays(org, dir, ("normal",), out={"normal": org}),
+        lambda: scene.trace_rays(org, dir, ("t",), t_max=t_max, out={"t": t_max}),
+        lambda: scene.trace_rays(org, dir, ("t",), out={"t": dir.reshape(-1)[:8]}),
+        lambda: scene.occluded_rays(read, dir, out=bytes_[:8]),
+        lambda: scene.occluded_points(light, read, out=bytes_[8:16]),
+        lambda: scene.points_inside(read, out=bytes_[-8:]),
+        lambda: scene.occluded_frame(frame, light, out=frame.t.view("u1").reshape(-1)[:48].reshape(1, 6, 8)),
+    ):
+        with pytest.raises(cgt.InvalidArgument, match="^out.*: it overlaps what the call reads"):
+            call()
+    scene.trace_rays(both[:, :3], dir, ("t",), out={"t": both[:, 3]})  # beside it
+    assert np.array_equal(both[:, 3], scene.trace_rays(org, dir).t)
+
+
+def test_bounced_rays_have_the_shape_of_the_rays(scene, rays):
+    org, dir = (a[:48] for a in rays)
+    hits, index = scene.trace_rays(org, dir, ("t", "primitive", "geometry")), np.linspace(1.1, 1.6, 48, dtype="f4")
+    flat = scene.bounce_rays(org, dir, hits, inside_of_ray=index, surfaces=("normal", "front"))
+    for shape in ((6, 8), (2, 4, 6)):
+        org, dir, index = (a.reshape(*shape, *tail) for a, tail in ((org, [3]), (dir, [3]), (index, [])))
+        hits = scene.trace_rays(org, dir, ("t", "primitive", "geometry"))
+        shaped = scene.bounce_rays(org, dir, hits, inside_of_ray=index, surfaces=("normal", "front"))
+        for one, other in zip(flat, shaped):
+            for name in one:
+                assert other[name].shape == shape + one[name].shape[1:]
+                assert np.array_equal(other[name].reshape(one[name].shape), one[name], equal_nan=True)
+        assert scene.trace_bounced_rays(shaped[0]).t.shape == shape

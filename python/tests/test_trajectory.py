@@ -260,3 +260,52 @@ def test_meshes(tmp_path):
     scene.add(frame.geometry())
     scene.commit()
     assert scene.trace_ray((0.5, 0.25, 1), (0, 0, -1)).t == 1
+
+
+class Interrupted:
+    """C, and Ctrl-C behind one of its calls."""
+
+    def __init__(self, lib, name):
+        self.lib, self.name = lib, name
+
+    def __getattr__(self, name):
+        call = getattr(self.lib, name)
+
+        def interrupted(*arguments):
+            call(*arguments)
+            self.name = None
+            raise KeyboardInterrupt
+
+        return interrupted if name == self.name else call
+
+
+def test_ctrl_c_shifts_no_frame(dump, tmp_path, monkeypatch):
+    lib = cgt.trajectory.lib
+
+    def interrupt(name, ask):
+        monkeypatch.setattr(cgt.trajectory, "lib", Interrupted(lib, "cgt_trajectory_" + name))
+        with pytest.raises(KeyboardInterrupt):
+            ask()
+        monkeypatch.setattr(cgt.trajectory, "lib", lib)
+
+    for name, ask in (("read", lambda r: r.read()), ("read", lambda r: r[1]), ("skip", lambda r: r[2]),
+                      ("skip", lambda r: r.skip()), ("rewind", lambda r: r.rewind()), ("rewind", lambda r: r[0]),
+                      ("count_frames", len), ("count_frames", lambda r: r.count_frames())):
+        for then in (lambda r: r.read().number == 1 or r[0].number == 0, lambda r: r[1].number == 1,
+                     lambda r: [f.number for f in r] == [0, 1, 2], lambda r: len(r) == 3 and r[-1].number == 2):
+            run = cgt.read(dump)
+            run.read()
+            interrupt(name, lambda: ask(run))
+            assert then(run)
+    pipe = tmp_path / "pipe.xyz"  # which cannot go back
+    os.mkfifo(pipe)
+    writer = threading.Thread(target=lambda: pipe.write_text(XYZ * 4))
+    writer.start()
+    with cgt.read(pipe) as run:
+        interrupt("read", run.read)
+        writer.join()
+        with pytest.raises(cgt.ReadError, match="frame 0: a call was interrupted, and the pipe is behind it"):
+            run[0]
+        assert [f.number for f in run] == [2, 3]
+        with pytest.raises(cgt.InvalidArgument, match="a pipe was read to its end"):
+            list(run)

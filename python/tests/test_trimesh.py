@@ -48,6 +48,9 @@ def test_first_hits_and_all_hits():
     assert np.bincount(of_ray)[np.bincount(of_ray) > 0].tolist() == [2] * len(ray)
     one, _ = rays.intersects_id(origins, directions, max_hits=1)
     assert np.array_equal(one, tri)
+    for multiple, most in ((True, 0), (False, 0), (False, 1), (False, 5)):
+        some, _ = rays.intersects_id(origins, directions, multiple_hits=multiple, max_hits=most)
+        assert np.array_equal(some, tri[:len(tri) * (most > 0)])
     assert rays.intersects_first(origins, directions).tolist() == [
         dict(zip(ray.tolist(), tri.tolist())).get(i, -1) for i in range(len(origins))]
 

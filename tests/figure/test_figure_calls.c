@@ -208,6 +208,43 @@ TEST(lines_keep_what_they_do_not_name)
     cgt_figure_release(figure);
 }
 
+/* A survey goes on after a frame that was refused, and stays where the shown one is. */
+TEST(frames_that_are_refused_leave_the_survey)
+{
+    cgt_figure *const figure = make_figure(), *const fresh = make_figure();
+    cgt_figure_data data = grains(), bad = grains();
+    uint8_t rgb[BYTES], expected[BYTES];
+    bad.points.column_count = 0;
+    for (int k = 0; k < 2; k++) {
+        cgt_figure *const f = k ? fresh : figure;
+        assert_int_equal(cgt_figure_set(f, "color", "charge"), CGT_OK);
+        assert_int_equal(cgt_figure_survey(f, &data), CGT_OK);
+        if (f == figure)
+            assert_int_equal(cgt_figure_survey(f, &bad), CGT_ERROR_INVALID_ARGUMENT);
+        charge[3] = 40.0f;
+        assert_int_equal(cgt_figure_survey(f, &data), CGT_OK);
+        charge[3] = 4.0f;
+        assert_int_equal(cgt_figure_show(f, &data), CGT_OK);
+    }
+    draw(fresh, expected);
+    draw(figure, rgb);
+    assert_memory_equal(rgb, expected, sizeof rgb);
+    assert_int_equal(cgt_figure_show(figure, &bad), CGT_ERROR_INVALID_ARGUMENT);
+    const cgt_image image = {.bytes = rgb};
+    assert_int_equal(cgt_figure_draw(figure, &image, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    expect_message(figure, "nothing is shown");
+    assert_int_equal(cgt_figure_show(figure, &data), CGT_OK);
+    draw(figure, rgb);
+    assert_memory_equal(rgb, expected, sizeof rgb);
+    /* without a survey nothing of it stays */
+    assert_int_equal(cgt_figure_set(figure, "size", "64x48"), CGT_OK);
+    assert_int_equal(cgt_figure_show(figure, &bad), CGT_ERROR_INVALID_ARGUMENT);
+    cgt_camera camera;
+    assert_int_equal(cgt_figure_get_camera(figure, &camera), CGT_ERROR_INVALID_ARGUMENT);
+    cgt_figure_release(figure);
+    cgt_figure_release(fresh);
+}
+
 /* ---- The camera of a hand ----------------------------------------------------------------------------------- */
 
 /* What cannot be drawn is refused, at any origin, and the camera is the one before. */
