@@ -193,7 +193,8 @@ CGT_API bool cgt_figure_get_origin(cgt_figure *figure, double origin[3]);
 
 /* Makes a frame the one that is drawn: what is shown, colours, bonds, the scene's commit. The data are copied.
  * Errors: INVALID_ARGUMENT (what the options ask for is not there, or wrong), OUT_OF_MEMORY, TOO_LARGE; then none is
- *         shown, and the survey stays; without one, what was found of this frame does not */
+ *         shown, and the survey stays, unless the frame is of another kind: triangles, or particles; without a survey,
+ *         what was found of this frame does not stay */
 CGT_API cgt_result cgt_figure_show(cgt_figure *figure, const cgt_figure_data *data);
 
 /* ---- Frames that are kept ----------------------------------------------------------------------------------- */
