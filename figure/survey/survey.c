@@ -171,7 +171,7 @@ static void survey_time(survey_times *t, const cgt_trajectory_frame *frame, int 
     t->has_unknown |= isnan(frame->time);
     if (isnan(frame->time))
         return;
-    const size_t letters = strlen(cgt_number(6, frame->time).text);
+    const size_t letters = strlen(cgt_number_shortest(frame->time).text);
     t->letters = letters > t->letters ? letters : t->letters;
     t->time_min = fmin(t->time_min, frame->time);
     t->time_max = fmax(t->time_max, frame->time);

@@ -20,7 +20,7 @@ typedef struct survey_times {
     int64_t step_min, step_max;
     double time_min, time_max; /* of those that are known; min above max where none is */
     int has_unknown;
-    size_t letters; /* of a time with six digits, at most */
+    size_t letters; /* of a time, at most */
 } survey_times;
 
 typedef struct survey {

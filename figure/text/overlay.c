@@ -32,7 +32,7 @@ static size_t format_number(const char *format, const overlay_frame *f, char tex
     const size_t time = time_length(format);
     text[0] = '\0';
     if (time) { /* a step in place of the time would stand before the time's unit */
-        const number_text number = time == 6 ? cgt_number(6, f->time) : cgt_fixed(format[7] - '0', f->time);
+        const number_text number = time == 6 ? cgt_number_shortest(f->time) : cgt_fixed(format[7] - '0', f->time);
         snprintf(text, NUMBER_SIZE, "%s", isnan(f->time) ? "-" : number.text);
         return time;
     }

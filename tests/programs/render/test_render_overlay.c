@@ -191,6 +191,48 @@ TEST(times_replace_their_names)
     assert_string_equal(little, "-1200");
 }
 
+/* Times and labels: no two frames of a run are alike, and no digits are noise of a float. */
+TEST(numbers_are_as_long_as_they_need)
+{
+    static const struct {
+        double value;
+        const char *text;
+    } rows[] = {
+        {0.0, "0"},
+        {-0.0, "0"},
+        {-7.0, "-7"},
+        {1000000.0, "1000000"},
+        {1000500.0, "1000500"},
+        {123456789012.0, "123456789012"},
+        {0.1, "0.1"},
+        {3.0 * 0.1, "0.3"},
+        {(double)0.1f, "0.1"},
+        {100000.002, "100000.002"},
+        {1000000.002, "1000000.002"},
+        {100000.1015625, "100000.1"}, /* floats */
+        {100000.203125, "100000.2"},
+        {1234567.5, "1234567.5"},
+        {1.0 / 3.0, "0.333333"},
+        {(double)(1.0f / 3.0f), "0.333333"},
+        {48.8882129084, "48.8882"},
+        {48888.2129084123, "48888.213"},
+        {4888821.29084123, "4888821.291"},
+        {1.5e-9, "1.5e-09"},
+        {2.5e20, "2.5e+20"},
+        {1e300, "1e+300"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        assert_string_equal(cgt_number_shortest(rows[i].value).text, rows[i].text);
+    assert_string_equal(cgt_number_shortest((double)INFINITY).text, "inf");
+    for (int i = 1; i < 1000; i++) { /* 2 fs a frame, after 100 ns */
+        const overlay_frame before = {.time = 1e5 + 0.002 * (i - 1)}, frame = {.time = 1e5 + 0.002 * i};
+        char last[64], text[64];
+        cgt_overlay_format("{time}", &before, last, sizeof last);
+        cgt_overlay_format("{time}", &frame, text, sizeof text);
+        assert_string_not_equal(text, last);
+    }
+}
+
 static void place_and_draw(overlay *o, const canvas *c, const overlay_frame *f)
 {
     cgt_overlay_place(o, WIDTH, HEIGHT);
