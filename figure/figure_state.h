@@ -89,8 +89,9 @@ struct cgt_figure {
     uint8_t *small;                           /* a picture of fewer pixels */
     cgt_image image;                          /* of the frame: the caller's memory */
     overlay overlay;
-    overlay_kind kinds[OVERLAY_MOST_KINDS];                                            /* of its legend */
-    int has_scale_told, has_labels_told, has_time_told, has_unit_told, has_radii_told; /* what is wrong with them */
+    overlay_kind kinds[OVERLAY_MOST_KINDS]; /* of its legend */
+    int has_scale_told, has_labels_told, has_time_told, has_unit_told, has_radii_told,
+        has_cut_told; /* what is wrong with them */
 
     /* Of <cgt/figure.h> alone. */
     int is_open, is_settled, is_surveying, has_bonds_told;
