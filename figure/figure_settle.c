@@ -465,6 +465,8 @@ int cgt_figure_settle(cgt_figure *figure)
     const int rays = (int)(o->samples * o->samples), is_first = !figure->shown;
     if (is_first && o->picture.ambient > 0 && o->picture.ambient < rays)
         cgt_notices_add(&figure->notices, "--ambient: each of a pixel's %d rays asks once: as with %d", rays, rays);
+    if (is_first)
+        cgt_figure_tell_unused(figure);
     cgt_figure_choose_ambient(figure);
     cgt_camera_path_at(&figure->path, 0.0, &figure->camera);
     cgt_figure_choose_light(figure);
