@@ -308,8 +308,13 @@ void cgt_figure_draw_overlay(cgt_figure *figure)
             "in the data's own unit, %s Angstrom",
             figure->overlay.scale.unit, cgt_number(6, 1.0 / frame.angstrom).text);
     }
-    if (figure->parts.frame->labels.count)
+    if (figure->parts.frame->labels.count) {
         draw_labels(figure, &c, &frame);
+    } else if (*figure->options.picture.label && !figure->has_labels_told) {
+        figure->has_labels_told = 1;
+        cgt_notices_add(&figure->notices, "--label: in frame %" PRIu64 " the formula holds for no sphere that is shown",
+                        figure->frame->number);
+    }
     if (cgt_overlay_draw(&figure->overlay, &c, &frame) && !figure->has_scale_told) {
         figure->has_scale_told = 1;
         cgt_notices_add(&figure->notices,

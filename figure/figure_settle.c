@@ -105,9 +105,9 @@ uint64_t cgt_figure_needs_frames(const cgt_figure *figure, uint64_t most)
     if (!o->has_camera || (is_measured && !may_have_words(o) && !o->has_range) ||
         (o->floor.is_set && !o->floor.has_place) || cgt_figure_wants_kinds(o))
         return most;
-    /* the up axis and ambient rays depend on the kind, and meshes of glass are as dark as they are large */
+    /* up axis, sky and ambient rays depend on the kind, and meshes of glass are as dark as they are large */
     return o->by == COLORING_AUTO || o->by == COLORING_HEIGHT || o->by == COLORING_CATEGORY || may_have_words(o) ||
-           o->bounce.count || o->picture.ambient < 0;
+           o->bounce.is_set || o->picture.ambient < 0;
 }
 
 int cgt_figure_is_decided(const cgt_figure *figure)
@@ -465,6 +465,8 @@ int cgt_figure_settle(cgt_figure *figure)
     const int rays = (int)(o->samples * o->samples), is_first = !figure->shown;
     if (is_first && o->picture.ambient > 0 && o->picture.ambient < rays)
         cgt_notices_add(&figure->notices, "--ambient: each of a pixel's %d rays asks once: as with %d", rays, rays);
+    if (is_first)
+        cgt_figure_tell_unused(figure);
     cgt_figure_choose_ambient(figure);
     cgt_camera_path_at(&figure->path, 0.0, &figure->camera);
     cgt_figure_choose_light(figure);

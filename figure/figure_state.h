@@ -89,8 +89,9 @@ struct cgt_figure {
     uint8_t *small;                           /* a picture of fewer pixels */
     cgt_image image;                          /* of the frame: the caller's memory */
     overlay overlay;
-    overlay_kind kinds[OVERLAY_MOST_KINDS];                                            /* of its legend */
-    int has_scale_told, has_labels_told, has_time_told, has_unit_told, has_radii_told; /* what is wrong with them */
+    overlay_kind kinds[OVERLAY_MOST_KINDS]; /* of its legend */
+    /* What is wrong with them, or with options, was told. */
+    int has_scale_told, has_labels_told, has_time_told, has_unit_told, has_radii_told, has_cut_told, has_unused_told;
 
     /* Of <cgt/figure.h> alone. */
     int is_open, is_settled, is_surveying, has_bonds_told;
@@ -190,6 +191,9 @@ int cgt_figure_keep_colors(cgt_figure *figure, const figure_found *was);
  * there is nothing to tell. Returns -1 if --bonds has none. */
 int cgt_figure_check_bonds(const figure_options *o, const cgt_trajectory_frame *frame, char *text, size_t size);
 int cgt_figure_choose_camera(cgt_figure *figure);
+
+/* Tells once of options that were given and change nothing. */
+void cgt_figure_tell_unused(cgt_figure *figure);
 
 /* The rest: ambient rays, the first light, which is over the left shoulder of the first camera and does not follow an
  * orbit, floor, an empty scene, mirrors and glass. */

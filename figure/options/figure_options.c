@@ -175,8 +175,12 @@ int cgt_figure_options_finish(figure_options *o, char *error, size_t size)
         return cgt_refuse(error, size, "%ux%u pixels of %ux%u rays: at most %d an edge and %llu in all", o->width,
                           o->height, o->samples, o->samples, FIGURE_MAX_EDGE, (unsigned long long)FIGURE_MAX_PIXELS);
     if (o->has_camera && (o->has_view || o->has_up || o->has_fov || o->zoom > 0.0f))
-        return cgt_refuse(error, size,
-                          "--view, --up, --fov and --zoom are for the automatic camera and exclude --camera");
+        return cgt_refuse(error, size, "--%s is for the automatic camera and excludes --%s",
+                          o->has_view  ? "view"
+                          : o->has_up  ? "up"
+                          : o->has_fov ? "fov"
+                                       : "zoom",
+                          o->keys.count ? "camera-keys" : "camera");
     if (o->unwrap && o->whole)
         return cgt_refuse(error, size, "--unwrap and --whole exclude each other");
     if (o->has_view && o->has_up && !o->side && cgt_camera_path_is_along(o->view, o->up))

@@ -4,6 +4,7 @@
  * Numbers, words and cameras from texts; see numbers.h. */
 #include "options/numbers.h"
 
+#include <float.h>
 #include <inttypes.h>
 #include <locale.h>
 #include <math.h>
@@ -113,6 +114,28 @@ number_text cgt_number(int digits, double value)
     snprintf(n.text, sizeof n.text, "%.*g", digits, value);
     put_point(n.text);
     return n;
+}
+
+/* Whether a text is the number: sums and products of decimals are rounded, and floats are of nine digits. */
+static int is_number(const number_text *n, double value, int is_float)
+{
+    char *end;
+    const double back = cgt_scan_double(n->text, &end);
+    return is_float ? (float)back == (float)value : fabs(back - value) <= 1e-12 * fabs(value);
+}
+
+number_text cgt_number_shortest(double value)
+{
+    const int is_float = fabs(value) <= (double)FLT_MAX && value == (double)(float)value;
+    if (value == floor(value) && fabs(value) < 1e15)
+        return cgt_number(15, value + 0.0); /* no -0 */
+    for (int digits = 6; digits <= (is_float ? 7 : 10); digits++) {
+        const number_text n = cgt_number(digits, value);
+        if (is_number(&n, value, is_float))
+            return n;
+    }
+    const double decimals = 3.0, power = fabs(value) >= 1.0 ? floor(log10(fabs(value))) : -1.0;
+    return cgt_number((int)fmin(fmax(power + 1.0 + decimals, 6.0), 15.0), value);
 }
 
 int cgt_number_digits(double largest, double step)

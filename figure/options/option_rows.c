@@ -181,7 +181,9 @@ const option_row cgt_figure_rows[] = {
      "last "
      "that fits a sphere counts. Bonds are as their more transparent end; at most eight shares",
      PARSED(particles, cgt_parse_opacity), .words = "bonds=0.5 water=0.2", .repeats = 1},
-    {"images", 0, "A,B,C", "Repeat everything so many times along the edges of the box",
+    {"images", 0, "A,B,C",
+     "Repeat everything so many times along the edges of the box: what --show, --hide, --slice and --cut leave of the "
+     "original",
      PARSED(particles.images, cgt_parse_images)},
     {"box", 0, "RADIUS", "Edges of the simulation box, as tubes of this radius",
      FLOAT(particles.box_radius, FLT_MIN, 1e30f), GIVEN(particles.box), OTHERWISE(NULL)},

@@ -61,6 +61,8 @@ static int add_image_bond(void *user, uint32_t a, uint32_t b, const double count
     const uint32_t from = f->place[a], to = f->place[b];
     for (uint32_t image = 0; image < f->copies && from != UINT32_MAX && to != UINT32_MAX; image++) {
         const uint32_t other = image_across(f->r->images, image, count);
+        if (other == UINT32_MAX && f->r->cut)
+            ++*f->r->cut;
         if (other != UINT32_MAX)
             add_bond(f->s, f->r, f->p, image * f->originals + from, other * f->originals + to);
     }

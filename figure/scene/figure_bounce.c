@@ -285,6 +285,47 @@ void cgt_figure_bounce_release(figure_bounce *b)
     free(b);
 }
 
+/* Whether the camera sees an axis upright: it lies in the plane of its view and up, on the side of up. */
+static int is_upright(const float axis[3], const float right[3], const float up[3])
+{
+    const float tolerance = 1e-5f; /* of cameras that come from others by rotations */
+    float aside = 0.0f, along = 0.0f, square = 0.0f;
+    for (int c = 0; c < 3; c++) {
+        aside += axis[c] * right[c];
+        along += axis[c] * up[c];
+        square += axis[c] * axis[c];
+    }
+    return square > 0.0f && fabsf(aside) <= tolerance * sqrtf(square) && along > tolerance * sqrtf(square);
+}
+
+/* Where the sky's zenith is. An automatic camera's up is an axis; a hand's is that axis made orthogonal to the view, and
+ * its picture the same. So the zenith is the axis that stands upright, and only without one the camera's way up. */
+static void find_zenith(const cgt_figure *figure, float zenith[3])
+{
+    const float *const given = figure->path.start.up, *const axis = figure->options.up;
+    const int usual = figure->survey.kind == CGT_TRAJECTORY_TRIANGLES ? 1 : 2;
+    float right[3], up[3], forward[3], most = 0.0f;
+    cgt_camera_get_axes(&figure->path.start, right, up, forward);
+    memcpy(zenith, up, sizeof up);
+    if ((given[0] != 0.0f) + (given[1] != 0.0f) + (given[2] != 0.0f) == 1) {
+        memcpy(zenith, given, sizeof up);
+        return;
+    }
+    if (is_upright(axis, right, up)) {
+        memcpy(zenith, axis, sizeof up);
+        return;
+    }
+    for (int i = 0; i < 6; i++) { /* the usual one, else that which is most upright */
+        const float sign = i < 3 ? 1.0f : -1.0f,
+                    one[3] = {i % 3 == 0 ? sign : 0.0f, i % 3 == 1 ? sign : 0.0f, i % 3 == 2 ? sign : 0.0f};
+        const float along = i == usual ? 2.0f : sign * up[i % 3];
+        if (!is_upright(one, right, up) || along <= most)
+            continue;
+        most = along;
+        memcpy(zenith, one, sizeof up);
+    }
+}
+
 void cgt_figure_bounce_settings(const cgt_figure *figure, cgt_picture_options *settings)
 {
     settings->bounces.materials = figure->bounce->material;
@@ -292,7 +333,7 @@ void cgt_figure_bounce_settings(const cgt_figure *figure, cgt_picture_options *s
     settings->bounces.limit = figure->options.bounce.bounces;
     settings->bounces.shadow_mask = 1u << OPAQUE;
     settings->bounces.glass_mask = 1u << GLASS;
-    memcpy(settings->bounces.up, figure->path.start.up, sizeof settings->bounces.up);
+    find_zenith(figure, settings->bounces.up);
 }
 
 uint32_t cgt_figure_bounce_looks(const figure_bounce *b, cgt_look *looks)

@@ -258,7 +258,9 @@ static int add_bonds(const particle_options *o, const bond_rules *rules, const c
     memcpy(opacity + 1, o->layers, sizeof o->layers);
     of_layer.opacity = o->layer_count ? opacity : NULL;
     of_layer.layer = o->has_bond_layer ? (int32_t)o->bond_layer : -1;
+    parts->cut_bonds = 0;
     for (uint32_t k = PARTICLE_LAYERS; k-- > 0;) {
+        of_layer.cut = k ? NULL : &parts->cut_bonds; /* once */
         parts->bond_begin[k] = parts->sticks.count;
         of_layer.only = k;
         if (o->bonds && k <= o->layer_count &&
@@ -441,12 +443,25 @@ static void tell_radii(cgt_figure *figure, const particles *p)
                     figure->frame->number, p->dropped, p->points);
 }
 
+/* Tells once of bonds that the box cuts. */
+static void tell_bonds(cgt_figure *figure, uint64_t cut)
+{
+    if (figure->has_cut_told || !cut)
+        return;
+    figure->has_cut_told = 1;
+    cgt_notices_add(&figure->notices,
+                    "--bonds: in frame %" PRIu64 " %" PRIu64
+                    " %s through the outer boundary of the box, and %s left out",
+                    figure->frame->number, cut, cut == 1 ? "bond goes" : "bonds go", cut == 1 ? "is" : "are");
+}
+
 int cgt_figure_scene_set(cgt_figure *figure, const frame_parts *parts)
 {
     figure_scene *s = &figure->parts;
     const cgt_trajectory_frame *f = figure->frame;
     s->frame = parts;
     tell_radii(figure, &parts->particles);
+    tell_bonds(figure, parts->cut_bonds);
     const particle_options *const o = &figure->options.particles;
     if (figure->coloring.by == COLORING_RGB)
         memcpy(s->palette, figure->coloring.palette, sizeof figure->coloring.palette);

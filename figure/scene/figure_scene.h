@@ -32,6 +32,7 @@ enum { FIGURE_LOOKS = 5 + 2 * CGT_PICTURE_MAX_LAYERS };
 typedef struct frame_parts {
     particles particles; /* where the spheres are not the file's own */
     sticks sticks;
+    uint64_t cut_bonds;                   /* left out at the box's outer boundary */
     uint32_t bond_begin[PARTICLE_LAYERS]; /* of the bonds of each layer: those of 8 first, of 0 last */
     uint32_t bonds, arrows; /* capsules before trails, and triangles before the box, which get no outlines */
     int8_t *rules;          /* of each sphere that is drawn: its --material, or -1. NULL: there are none */

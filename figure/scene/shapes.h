@@ -29,6 +29,7 @@ typedef struct bond_rules {
     const float *opacity; /* by layer; NULL: there are no layers */
     uint32_t only;
     int32_t layer;
+    uint64_t *cut; /* counts bonds that are left out at the outer boundary; NULL: nobody asks */
 } bond_rules;
 
 /* Adds bonds of one frame, which may have none. A bond of the frame that goes through a periodic boundary, as

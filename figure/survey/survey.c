@@ -171,7 +171,7 @@ static void survey_time(survey_times *t, const cgt_trajectory_frame *frame, int 
     t->has_unknown |= isnan(frame->time);
     if (isnan(frame->time))
         return;
-    const size_t letters = strlen(cgt_number(6, frame->time).text);
+    const size_t letters = strlen(cgt_number_shortest(frame->time).text);
     t->letters = letters > t->letters ? letters : t->letters;
     t->time_min = fmin(t->time_min, frame->time);
     t->time_max = fmax(t->time_max, frame->time);
@@ -263,6 +263,7 @@ static void survey_speed(survey *s, float speed)
         return;
     memcpy(&bits, &speed, sizeof bits);
     s->speed_bins[(bits & 0x7FFFFFFFu) >> 19]++;
+    s->speed_max = fmaxf(s->speed_max, fabsf(speed));
     s->speeds++;
 }
 
@@ -348,6 +349,7 @@ static void merge(survey *sum, const survey *part)
     for (size_t k = 0; k < sizeof sum->has_elements; k++)
         sum->has_elements[k] |= part->has_elements[k];
     sum->speeds += part->speeds;
+    sum->speed_max = fmaxf(sum->speed_max, part->speed_max);
     for (int bin = 0; bin < SURVEY_BINS; bin++)
         sum->speed_bins[bin] += part->speed_bins[bin];
 }
@@ -457,6 +459,8 @@ void cgt_survey_end(survey_team *team)
 float cgt_survey_speed_quantile(const survey *s, double share)
 {
     uint64_t below = 0;
+    if (s->speeds <= 100 && share >= 0.99) /* as of values: few are taken whole */
+        return s->speed_max;
     for (uint32_t bin = 0; bin < SURVEY_BINS; bin++) {
         below += s->speed_bins[bin];
         if (below == 0 || (double)below < share * (double)s->speeds)
@@ -464,7 +468,7 @@ float cgt_survey_speed_quantile(const survey *s, double share)
         const uint32_t bits = ((bin + 1) << 19) - 1; /* the largest float of the bin */
         float speed;
         memcpy(&speed, &bits, sizeof speed);
-        return bin ? speed : 0.0f; /* bin 0: zero and the smallest denormals */
+        return bin ? fminf(speed, s->speed_max) : 0.0f; /* bin 0: zero and the smallest denormals */
     }
     return 0.0f;
 }

@@ -20,7 +20,7 @@ typedef struct survey_times {
     int64_t step_min, step_max;
     double time_min, time_max; /* of those that are known; min above max where none is */
     int has_unknown;
-    size_t letters; /* of a time with six digits, at most */
+    size_t letters; /* of a time, at most */
 } survey_times;
 
 typedef struct survey {
@@ -41,6 +41,7 @@ typedef struct survey {
     int has_rgb;     /* some frame has colours of given_colors.h */
     uint64_t speeds; /* known ones */
     uint64_t speed_bins[SURVEY_BINS];
+    float speed_max;
     float boxless_steps[3];                    /* the longest along each axis; see speed.h */
     double box_min[3], box_max[3];             /* of all boxes with their images; min above max where there are none */
     double move_min[3], move_max[3];           /* of images: how far they are from the original, at most */
@@ -76,7 +77,8 @@ void cgt_survey_look(survey_team *team);
 /* Ends a survey, whose result has no total yet. */
 void cgt_survey_end(survey_team *team);
 
-/* The quantile `share` of the known speeds, at most a sixteenth too large; 0 where none is known. */
+/* The quantile `share` of the known speeds, at most a sixteenth too large and no larger than the greatest; of fewer than
+ * 101 the greatest where share is 0.99 or more. 0 where none is known. */
 float cgt_survey_speed_quantile(const survey *s, double share);
 
 /* The ends of a colour map for the first formula's values, of which there are some: the 1 % and the 99 % quantile, or

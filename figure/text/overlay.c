@@ -32,7 +32,7 @@ static size_t format_number(const char *format, const overlay_frame *f, char tex
     const size_t time = time_length(format);
     text[0] = '\0';
     if (time) { /* a step in place of the time would stand before the time's unit */
-        const number_text number = time == 6 ? cgt_number(6, f->time) : cgt_fixed(format[7] - '0', f->time);
+        const number_text number = time == 6 ? cgt_number_shortest(f->time) : cgt_fixed(format[7] - '0', f->time);
         snprintf(text, NUMBER_SIZE, "%s", isnan(f->time) ? "-" : number.text);
         return time;
     }
@@ -195,39 +195,12 @@ static void draw_texts(const overlay *o, const canvas *c, const overlay_frame *f
 
 /* ---- Colour bar --------------------------------------------------------------------------------------------- */
 
-static uint32_t linear_ticks(double min, double max, double *ticks, uint32_t most)
-{
-    static const double steps[] = {1.0, 2.0, 5.0, 10.0};
-    const double rough = (max - min) / most, power = pow(10.0, floor(log10(rough)));
-    double step = 10.0 * power;
-    uint32_t count = 0;
-    for (int i = 3; i >= 0; i--)
-        step = steps[i] * power >= rough ? steps[i] * power : step;
-    for (double k = ceil(min / step - 1e-9); k <= max / step + 1e-9 && count < most; k += 1.0)
-        ticks[count++] = k * step;
-    return count;
-}
-
-uint32_t cgt_overlay_ticks(double min, double max, int logarithmic, double *ticks, uint32_t most)
-{
-    if (!(max > min) || !isfinite(max - min))
-        return 0;
-    if (!logarithmic || max / min < 10.0)
-        return linear_ticks(min, max, ticks, most);
-    const double decades = log10(max / min);
-    const double every = ceil(decades / most);
-    uint32_t count = 0;
-    for (double k = ceil(log10(min) - 1e-9); k <= log10(max) + 1e-9 && count < most; k += every)
-        ticks[count++] = pow(10.0, k);
-    return count;
-}
-
-/* Where a value lies on the bar, 0 to 1. */
+/* Where a value lies on the bar, 0 to 1; a tick may be beyond an end by what that is rounded. */
 static double share_of(const coloring *k, double value)
 {
-    if (k->logarithmic)
-        return log(value / k->min) / log(k->max / k->min);
-    return (value - k->min) / (k->max - k->min);
+    const double share =
+        k->logarithmic ? log(value / k->min) / log(k->max / k->min) : (value - k->min) / (k->max - k->min);
+    return fmin(fmax(share, 0.0), 1.0);
 }
 
 enum { MOST_TICKS = 6 };
@@ -241,7 +214,7 @@ static uint32_t find_ticks(const overlay *o, uint32_t most, double ticks[MOST_TI
                                  : cgt_number_digits(fmax(fabs(ticks[0]), fabs(ticks[count - 1])),
                                                      ticks[count - 1] - ticks[count - 2]);
     for (uint32_t i = 0; i < count; i++)
-        texts[i] = cgt_number(digits, fabs(ticks[i]) < 1e-12 * fabs(k->max) ? 0.0 : ticks[i]);
+        texts[i] = cgt_number(digits, ticks[i]);
     return count;
 }
 

@@ -190,7 +190,7 @@ static void print_range_rule(const renderer *r, FILE *to)
         fprintf(to, s->values ? ", which all values are" : ", since no value is finite");
     } else {
         fprintf(to, ", %s and the %s", r->figure->coloring.logarithmic ? "the 1 % quantile of those above 0" : "0",
-                cgt_survey_speed_quantile(s, 0.99) > 0.0f ? "99 % quantile" : "greatest");
+                s->speeds > 100 && cgt_survey_speed_quantile(s, 0.99) > 0.0f ? "99 % quantile" : "greatest");
     }
     if (r->figure->options.is_symmetric)
         fprintf(to, ", as far below 0 as above");

@@ -148,6 +148,8 @@ TEST(labels_say_what_columns_have)
     assert_int_equal(labels.count, 1);
     assert_string_equal(labels.list[0].text, "CAH: 0.25 e, 70000011.125!");
     assert_true(labels.list[0].place[0] == 1.0f && labels.list[0].radius == 0.5f);
+    apply("index == 1", "{q*4-2/3} {12345.678} {1234567.5} {123456.75} {id*1000}", NULL, &labels);
+    assert_string_equal(labels.list[0].text, "0.333333 12345.7 1234567.5 123456.75 7000001000");
     apply("index < 3", NULL, NULL, &labels);
     assert_int_equal(labels.count, 3);
     assert_string_equal(labels.list[2].text, "7000002");

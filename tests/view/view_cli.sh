@@ -283,6 +283,21 @@ if command -v python3 >/dev/null && "$program" --help | grep -q 'o opens a panel
         fail "Python's lines: $(cat "$tmp/stdout")"
 fi
 
+# The sky of mirrors is cgt-render's, by the same options, though the way up of a hand is orthogonal to its view.
+for with in --floor '--view 0,0.5,0.8' '-c 12,-9,10,0,0,0,0.2,0.3,1,60'; do
+    rm -f "$tmp"/view_* "$tmp"/again*
+    # shellcheck disable=SC2086 # options
+    view 0 --no-metadata --material all=mirror --bounces 4 $with "$data/caffeine.xyz" <<'END'
+settle
+key s
+settle
+END
+    # shellcheck disable=SC2086 # options
+    (cd "$tmp" && "$render" -q $size --no-metadata --material all=mirror --bounces 4 $with -o again.png \
+        "$data/caffeine.xyz") >"$tmp/again.log" 2>&1 || fail "cgt-render fails: $(head -n 2 "$tmp/again.log")"
+    cmp -s "$tmp/view_0000.png" "$tmp/again.png" || fail "the sky of mirrors is another, $with"
+done
+
 # Mirrors and glass, a floor, a transparent background; also after colours, hiding and the camera's up have changed.
 rm -f "$tmp"/view_*
 view 0 --material 'C=glass' --material 'all=mirror' --bounces 4 --floor "$data/caffeine.xyz" <<'END'

@@ -75,7 +75,9 @@ static void append_part(const label_part *part, const cgt_trajectory_frame *f, u
         append(to, word && word <= column->words ? column->word[word - 1] : "");
     } else {
         cgt_expression_values(part->value, i, 1, &value);
-        append(to, cgt_number(value == floor(value) && fabs(value) < 1e15 ? 15 : 6, value).text);
+        /* six digits have decimals below 10^5 */
+        append(to, value != floor(value) && fabs(value) < 1e5 ? cgt_number(6, value).text
+                                                              : cgt_number_shortest(value).text);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "options/numbers.h"
 #include "view/viewer/viewer_internal.h"
 
 static const float white[3] = {0.85f, 0.85f, 0.85f}, dim[3] = {0.3f, 0.3f, 0.3f}, accent[3] = {1.0f, 0.45f, 0.05f};
@@ -106,7 +107,7 @@ static void draw_status(viewer *v, const view_frames_state *s)
         snprintf(line[0], sizeof line[0], "reading");
     } else {
         if (isfinite(f->time))
-            snprintf(time, sizeof time, "  t = %.6g", f->time);
+            snprintf(time, sizeof time, "  t = %s", cgt_number_shortest(f->time).text);
         else if (f->step != (int64_t)f->number)
             snprintf(time, sizeof time, "  step %lld", (long long)f->step);
         if (v->wanted != v->shown->chosen)

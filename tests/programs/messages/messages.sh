@@ -27,6 +27,7 @@ for i in 0 1 2; do xyz run.xyz '1 0 0 0' "1 $i 2 0"; done
 for i in 0 1 2; do xyz jump.xyz '1 0 0 0' "1 $((i % 2 * 50)) 0 0" "1 $i 1 0"; done
 awk 'BEGIN {
     for (f = 0; f < 2; f++) { print "300\n"; for (i = 0; i < 300; i++) print "C", i % 20, int(i / 20), i || f } }' >rest.xyz
+awk 'BEGIN { for (f = 0; f < 2; f++) { print "200\n"; for (i = 0; i < 200; i++) print "C", i + f, 0, 0 } }' >drift.xyz
 xyz far.xyz 'C 5000000 0 0' 'C 5000003 1 0'
 xyz huge.xyz 'Q 3e38 0 0' 'Q -3e38 0 0'
 printf '2\nProperties=species:S:1:pos:R:3:radius:R:1\nC nan 0 0 1\nC 0 0 0 -1\n' >odd.xyz

@@ -156,7 +156,7 @@ differs fitted zoom_2 "--zoom=2"
 run 0 -n -s 9x9 --zoom=2 --fov=90 row.xyz # half of tan 45 degrees is tan 26.565
 says out '^camera .*,53\.13010'
 refuses 2 '--zoom: ' --zoom 0 row.xyz
-refuses 2 'are for the automatic camera' --zoom 2 -c $camera row.xyz
+refuses 2 'is for the automatic camera' --zoom 2 -c $camera row.xyz
 
 # ---- Style and light ------------------------------------------------------------------------------------------------
 

@@ -328,9 +328,12 @@ TEST(quantiles_are_close)
         s.speed_bins[bits >> 19]++;
         s.speeds++;
     }
+    s.speed_max = 10.0f;
     assert_true(cgt_survey_speed_quantile(&s, 0.99) >= 9.9f && cgt_survey_speed_quantile(&s, 0.99) <= 9.9f * 1.0625f);
     assert_true(cgt_survey_speed_quantile(&s, 0.5) >= 5.0f && cgt_survey_speed_quantile(&s, 0.5) <= 5.0f * 1.0625f);
-    assert_true(cgt_survey_speed_quantile(&s, 1.0) >= 10.0f);
+    assert_true(cgt_survey_speed_quantile(&s, 1.0) == 10.0f);
+    s.speed_max = 9.95f; /* of the same bin: no quantile is above all speeds */
+    assert_true(cgt_survey_speed_quantile(&s, 0.99) == 9.95f);
 }
 
 /* Ranks are those of all values up to BULK_SAMPLES of them; of more, samples are near, and the same in any order. */

@@ -107,7 +107,7 @@ TEST(ticks_are_round)
         double first;
         uint32_t count;
     } rows[] = {{0.0, 10.0, 0, 0.0, 6}, {0.13, 0.97, 0, 0.2, 4}, {-3.0, 3.0, 0, -3.0, 0}, {1.0, 1000.0, 1, 1.0, 4},
-                {2.0, 5e6, 1, 10.0, 3}, {1e-9, 1e9, 1, 1e-9, 0}, {2.0, 9.0, 1, 2.0, 0}};
+                {2.0, 5e6, 1, 10.0, 6}, {1e-9, 1e9, 1, 1e-9, 0}, {2.0, 9.0, 1, 2.0, 0}};
     double ticks[6];
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const uint32_t count = cgt_overlay_ticks(rows[i].min, rows[i].max, rows[i].logarithmic, ticks, 6);
@@ -128,6 +128,50 @@ TEST(ticks_are_round)
     assert_int_equal(cgt_overlay_ticks(0.0, INFINITY, 0, ticks, 6), 0);
 }
 
+/* All ticks of a range, as they are written: an end that is a tick has one, though ranges are floats. */
+TEST(ticks_reach_the_ends)
+{
+    static const struct {
+        float min, max;
+        int logarithmic;
+        uint32_t most;
+        const char *ticks;
+    } rows[] = {
+        {0.0f, 60.0f, 0, 6, "0 20 40 60"},
+        {0.0f, 300.0f, 0, 6, "0 100 200 300"},
+        {0.0f, 50.0f, 0, 6, "0 10 20 30 40 50"},
+        {-3.0f, 3.0f, 0, 6, "-2 0 2"},
+        {-0.6f, 0.0f, 0, 6, "-0.6 -0.4 -0.2 0"},
+        {0.1f, 0.5f, 0, 6, "0.1 0.2 0.3 0.4 0.5"},
+        {0.1f, 0.7f, 0, 6, "0.2 0.4 0.6"},
+        {1000.1f, 1000.5f, 0, 6, "1000.1 1000.2 1000.3 1000.4 1000.5"},
+        {1e30f, 3e30f, 0, 6, "1e+30 1.5e+30 2e+30 2.5e+30 3e+30"},
+        {-1.0f, 1.0f, 0, 2, "-1 1"},
+        {-2.0f, 4.0f, 0, 3, "-2 2"},
+        {0.0f, 4.0f, 0, 2, "0 4"},
+        {1.0f, 1e6f, 1, 6, "1 100 10000 1e+06"},
+        {0.001f, 1000.0f, 1, 6, "0.001 0.1 10 1000"},
+        {1e-8f, 1e8f, 1, 6, "1e-08 0.0001 1 10000 1e+08"},
+        {1e-30f, 1e30f, 1, 6, "1e-30 1e-18 1e-06 1e+06 1e+18 1e+30"},
+        {1.0f, 10.0f, 1, 6, "1 2 5 10"},
+        {2.0f, 90.0f, 1, 6, "2 5 10 20 50"},
+        {2.0f, 90.0f, 1, 3, "2 10 50"},
+        {3.0f, 95.0f, 1, 6, "5 10 20 50"},
+        {1.1f, 11.5f, 1, 6, "2 5 10"},
+        {0.2f, 500.0f, 1, 6, "1 10 100"},
+        {2.0f, 9.0f, 1, 6, "2 4 6 8"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        double ticks[6];
+        char text[128] = "";
+        const uint32_t count =
+            cgt_overlay_ticks((double)rows[i].min, (double)rows[i].max, rows[i].logarithmic, ticks, rows[i].most);
+        for (uint32_t k = 0; k < count; k++)
+            snprintf(text + strlen(text), sizeof text - strlen(text), k ? " %s" : "%s", cgt_number(6, ticks[k]).text);
+        assert_string_equal(text, rows[i].ticks);
+    }
+}
+
 TEST(times_replace_their_names)
 {
     overlay_frame f = {.number = 7, .step = -1200, .time = 0.5};
@@ -145,6 +189,48 @@ TEST(times_replace_their_names)
     assert_string_equal(text, "-1e+300");
     cgt_overlay_format("{step}{step}", &f, little, sizeof little); /* cut */
     assert_string_equal(little, "-1200");
+}
+
+/* Times and labels: no two frames of a run are alike, and no digits are noise of a float. */
+TEST(numbers_are_as_long_as_they_need)
+{
+    static const struct {
+        double value;
+        const char *text;
+    } rows[] = {
+        {0.0, "0"},
+        {-0.0, "0"},
+        {-7.0, "-7"},
+        {1000000.0, "1000000"},
+        {1000500.0, "1000500"},
+        {123456789012.0, "123456789012"},
+        {0.1, "0.1"},
+        {3.0 * 0.1, "0.3"},
+        {(double)0.1f, "0.1"},
+        {100000.002, "100000.002"},
+        {1000000.002, "1000000.002"},
+        {100000.1015625, "100000.1"}, /* floats */
+        {100000.203125, "100000.2"},
+        {1234567.5, "1234567.5"},
+        {1.0 / 3.0, "0.333333"},
+        {(double)(1.0f / 3.0f), "0.333333"},
+        {48.8882129084, "48.8882"},
+        {48888.2129084123, "48888.213"},
+        {4888821.29084123, "4888821.291"},
+        {1.5e-9, "1.5e-09"},
+        {2.5e20, "2.5e+20"},
+        {1e300, "1e+300"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        assert_string_equal(cgt_number_shortest(rows[i].value).text, rows[i].text);
+    assert_string_equal(cgt_number_shortest((double)INFINITY).text, "inf");
+    for (int i = 1; i < 1000; i++) { /* 2 fs a frame, after 100 ns */
+        const overlay_frame before = {.time = 1e5 + 0.002 * (i - 1)}, frame = {.time = 1e5 + 0.002 * i};
+        char last[64], text[64];
+        cgt_overlay_format("{time}", &before, last, sizeof last);
+        cgt_overlay_format("{time}", &frame, text, sizeof text);
+        assert_string_not_equal(text, last);
+    }
 }
 
 static void place_and_draw(overlay *o, const canvas *c, const overlay_frame *f)
