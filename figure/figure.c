@@ -403,7 +403,7 @@ cgt_result cgt_figure_show(cgt_figure *figure, const cgt_figure_data *data)
     if (!show(figure, data))
         return CGT_OK;
     const int is_other = figure->sequence.frame.kind != figure->survey.kind; /* it begins a run of its own */
-    if (!had_survey || !figure->is_settled || is_other) /* all that was found is of this frame */
+    if (!had_survey || !figure->is_settled || is_other)                      /* all that was found is of this frame */
         return fail_frame(figure);
     cgt_figure_clear(figure);
     figure->next = UINT64_MAX;

@@ -9,8 +9,8 @@
 
 static inline float picture_square(const float v[3]) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
-/* Brings a vector near 1 by a power of two, if need be. Returns how many powers were taken out of it; what is not finite
- * stays. */
+/* Brings a vector near 1 by a power of two, if need be. Returns how many powers were taken out of it; what is not
+ * finite stays. */
 static inline int picture_bring_near(float v[3])
 {
     const float square = picture_square(v);

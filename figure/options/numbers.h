@@ -31,8 +31,8 @@ typedef struct number_text {
 } number_text;
 number_text cgt_number(int digits, double value);
 
-/* The text of a time or a value, which tells it from those near it: all digits of whole numbers; of others six, or up to
- * ten where these are the number, of floats seven. What has no such text has three decimals, or six digits. */
+/* The text of a time or a value, which tells it from those near it: all digits of whole numbers; of others six, or up
+ * to ten where these are the number, of floats seven. What has no such text has three decimals, or six digits. */
 number_text cgt_number_shortest(double value);
 
 /* How many digits tell numbers apart that are `step` from each other and at most `largest`: 6 to 15. */

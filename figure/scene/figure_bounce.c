@@ -298,8 +298,8 @@ static int is_upright(const float axis[3], const float right[3], const float up[
     return square > 0.0f && fabsf(aside) <= tolerance * sqrtf(square) && along > tolerance * sqrtf(square);
 }
 
-/* Where the sky's zenith is. An automatic camera's up is an axis; a hand's is that axis made orthogonal to the view, and
- * its picture the same. So the zenith is the axis that stands upright, and only without one the camera's way up. */
+/* Where the sky's zenith is. An automatic camera's up is an axis; a hand's is that axis made orthogonal to the view,
+ * and its picture the same. So the zenith is the axis that stands upright, and only without one the camera's way up. */
 static void find_zenith(const cgt_figure *figure, float zenith[3])
 {
     const float *const given = figure->path.start.up, *const axis = figure->options.up;

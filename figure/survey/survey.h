@@ -77,8 +77,8 @@ void cgt_survey_look(survey_team *team);
 /* Ends a survey, whose result has no total yet. */
 void cgt_survey_end(survey_team *team);
 
-/* The quantile `share` of the known speeds, at most a sixteenth too large and no larger than the greatest; of fewer than
- * 101 the greatest where share is 0.99 or more. 0 where none is known. */
+/* The quantile `share` of the known speeds, at most a sixteenth too large and no larger than the greatest; of fewer
+ * than 101 the greatest where share is 0.99 or more. 0 where none is known. */
 float cgt_survey_speed_quantile(const survey *s, double share);
 
 /* The ends of a colour map for the first formula's values, of which there are some: the 1 % and the 99 % quantile, or

@@ -65,9 +65,9 @@ void cgt_overlay_format(const char *format, const overlay_frame *frame, char *te
 /* Whether a text that was given asks for the time of a frame that has none. */
 int cgt_overlay_lacks_time(const overlay *o, const overlay_frame *frame);
 
-/* Ticks from min to max, min < max, rising: multiples of 1, 2 or 5 times a power of ten; with logarithmic, 0 < min, such
- * numbers themselves. An end that is one up to a float's rounding has a tick. Returns how many, at most `most`, which
- * is 2 to 30. */
+/* Ticks from min to max, min < max, rising: multiples of 1, 2 or 5 times a power of ten; with logarithmic, 0 < min,
+ * such numbers themselves. An end that is one up to a float's rounding has a tick. Returns how many, at most `most`,
+ * which is 2 to 30. */
 uint32_t cgt_overlay_ticks(double min, double max, int logarithmic, double *ticks, uint32_t most);
 
 #endif

@@ -123,7 +123,7 @@ typedef struct cgt_picture_light {
 typedef struct cgt_picture_lighting {
     uint32_t light_count; /* at most CGT_PICTURE_MAX_LIGHTS */
     cgt_picture_light lights[CGT_PICTURE_MAX_LIGHTS];
-    float sky;  /* light from all sides, which ambient occlusion dims: 0 or more */
+    float sky; /* light from all sides, which ambient occlusion dims: 0 or more */
     /* Light from the eye, without shadows; of it, too, ambient occlusion takes up to 0.6: 0 or more. */
     float head;
     /* Rays of a pixel to the sky, at most CGT_PICTURE_MAX_RAYS; 0 (default): no ambient occlusion. The rays of

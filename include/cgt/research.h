@@ -145,8 +145,8 @@ typedef enum cgt_kd_traversal {
 typedef enum cgt_triangle_test {
     CGT_TRIANGLE_TEST_AUTO = 0, /* edge functions with error bounds; what they leave open is decided exactly */
     /* Edge functions of the ray's Pluecker coordinates, which lose as many bits as the scene is farther from the origin
-     * than large. The two triangles at an edge find the same side of it, so that no ray passes between them, but for one
-     * along a plane that splits a tree, where the tree chooses */
+     * than large. The two triangles at an edge find the same side of it, so that no ray passes between them, but for
+     * one along a plane that splits a tree, where the tree chooses */
     CGT_TRIANGLE_TEST_WATERTIGHT,
     CGT_TRIANGLE_TEST_MOLLER_TRUMBORE, /* Moeller, Trumbore 1997 */
     CGT_TRIANGLE_TEST_ACCELERATED      /* projected onto the main plane (Wald 2004), from 48 bytes a triangle */

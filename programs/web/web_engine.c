@@ -183,8 +183,8 @@ static size_t find_camera(const char *settings)
     return (size_t)(line - settings);
 }
 
-/* What was set of an option: its values, a line each; "": nothing; name NULL: of all, as a settings file has them. NULL:
- * no memory. */
+/* What was set of an option: its values, a line each; "": nothing; name NULL: of all, as a settings file has them.
+ * NULL: no memory. */
 EMSCRIPTEN_KEEPALIVE const char *web_values(const char *name)
 {
     char *const values = get_settings(web.figure, name);

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The words of LAMMPS data files: keywords of sections, and which columns atoms have (documentation of LAMMPS, read_data,
- * "Atoms section"). */
+ * The words of LAMMPS data files: keywords of sections, and which columns atoms have (documentation of LAMMPS,
+ * read_data, "Atoms section"). */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/lammps/lammps_parts.h"
 
@@ -176,8 +176,8 @@ static int has_images(text_span rows, int columns)
     return 1;
 }
 
-/* Without a name the rows must do. Ids, molecules and types are whole numbers, but so may charges and diameters be: they
- * are told from types by the number of types. Where all may be types, they are. */
+/* Without a name the rows must do. Ids, molecules and types are whole numbers, but so may charges and diameters be:
+ * they are told from types by the number of types. Where all may be types, they are. */
 static const char *guess_style(text_span rows, uint64_t types)
 {
     int columns = count_columns(rows);
