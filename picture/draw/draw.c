@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "vector_range.h"
+
 /* ---- Memory ------------------------------------------------------------------------------------------------- */
 
 /* Bytes a ray: t, primitive, geometry and normal, or light; then what the lights need. */
@@ -130,11 +132,8 @@ void cgt_draw_free(drawing *d)
 
 void cgt_draw_normalize(float v[3])
 {
-    int exponent = 0; /* a power of two changes no bits, and keeps squares in the range of float */
-    frexpf(fmaxf(fabsf(v[0]), fmaxf(fabsf(v[1]), fabsf(v[2]))), &exponent);
-    for (int c = 0; c < 3; c++)
-        v[c] = ldexpf(v[c], -exponent);
-    const float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    picture_bring_near(v);
+    const float length = sqrtf(picture_square(v));
     for (int c = 0; c < 3; c++)
         v[c] = length > 0.0f ? v[c] / length : 0.0f;
 }
