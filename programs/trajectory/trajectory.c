@@ -308,9 +308,8 @@ static int rewind_file(cgt_trajectory *t)
 {
     char reason[256];
     const int failed = t->failed;
-    for (int a = 0; a < 3; a++)
-        if (!isfinite(t->options.origin[a]))
-            return trajectory_fail(t, 0, "the origin must be finite");
+    if (!trajectory_is_finite(t->options.origin))
+        return trajectory_fail(t, 0, "the origin must be finite");
     if (t->path_at > 0) {
         forget_frames(t);
         return trajectory_open_file(t, 0);

@@ -8,6 +8,8 @@
 #ifndef TRAJECTORY_INTERNAL_H
 #define TRAJECTORY_INTERNAL_H
 
+#include <math.h>
+
 #include <cgt/trajectory.h>
 #include "trajectory/atoms/trajectory_bonds.h"
 #include "trajectory/trajectory_columns.h"
@@ -168,6 +170,11 @@ int trajectory_reserve(cgt_trajectory *t, size_t count, size_t expected);
 static inline float trajectory_place(const cgt_trajectory *t, size_t axis, double value)
 {
     return (float)(value - t->origin[axis]);
+}
+
+static inline int trajectory_is_finite(const double origin[3])
+{
+    return isfinite(origin[0]) && isfinite(origin[1]) && isfinite(origin[2]);
 }
 
 /* Makes this origin the one that counts. */

@@ -207,8 +207,7 @@ static const char *check_options(const cgt_trajectory_options *options)
         return "the radius for files without one must be 0 or more";
     if (!(options->fps >= 0.0 && isfinite(options->fps)))
         return "the frames per second must be 0 or more";
-    if (options->has_origin &&
-        !(isfinite(options->origin[0]) && isfinite(options->origin[1]) && isfinite(options->origin[2])))
+    if (options->has_origin && !trajectory_is_finite(options->origin))
         return "the origin must be finite";
     return options->follow >= 0.0 && isfinite(options->follow) ? NULL : "the seconds to wait must be 0 or more";
 }
